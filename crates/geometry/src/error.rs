@@ -1,0 +1,16 @@
+use crate::DVec2;
+
+/// Why a geometric object cannot be made.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GeometryError {
+    /// Three of a quad's corners lie on a line, or two coincide.
+    #[error("the quad is degenerate: three of its corners lie on a line")]
+    DegenerateQuad,
+    /// The map squeezes the plane into a line or a point.
+    #[error("the matrix is singular")]
+    Singular,
+    /// A coordinate is NaN or infinite.
+    #[error("a coordinate is not finite: ({}, {})", .0.x, .0.y)]
+    NotFinite(DVec2),
+}
