@@ -17,6 +17,8 @@ mod error;
 mod fill_rule;
 mod homography;
 mod matrix2;
+#[cfg(feature = "paths")]
+mod path;
 mod rect;
 
 pub use affine::Affine;
@@ -25,4 +27,6 @@ pub use fill_rule::FillRule;
 pub use glam::{DVec2, DVec3};
 pub use homography::Homography;
 pub use matrix2::{Axes, Matrix2};
+#[cfg(feature = "paths")]
+pub use path::Path;
 pub use rect::{IntRect, Rect};
