@@ -29,6 +29,8 @@ mod path;
 mod rect;
 #[cfg(feature = "paths")]
 mod stroke;
+mod triangle;
+mod triangulate;
 
 pub use affine::Affine;
 pub use clip::{clip_polygon, clip_polygon_to_rect};
@@ -45,3 +47,5 @@ pub use path::{Path, PathElement};
 pub use rect::{IntRect, Rect};
 #[cfg(feature = "paths")]
 pub use stroke::{Cap, Join, StrokeStyle};
+pub use triangle::{EdgeFunction, Triangle};
+pub use triangulate::{triangulate, triangulate_with};
