@@ -3,9 +3,10 @@
 //! A Bézier curve under a homography is a rational Bézier curve: its control points are the
 //! images (X, Y, w) of the control points. De Casteljau's halving works on those as on any
 //! others, so the curve is cut in halves in homogeneous space, and a piece is straight enough when
-//! its *projected* control points lie within the tolerance of its projected chord: with positive
-//! weights the curve stays in their convex hull. No estimate of the curvature is needed, and only
-//! + − × ÷ and comparisons are used, so that the same path gives the same points everywhere.
+//! its *projected* control points lie so close to its projected chord that the curve, which is a
+//! mean of them with positive weights, lies within the tolerance. No estimate of the curvature is
+//! needed, and only + − × ÷ and comparisons are used, so that the same path gives the same points
+//! everywhere.
 
 use crate::path::Cursor;
 use crate::{Contours, DVec2, DVec3, Homography, Path, PathElement, clip_polygon};
@@ -150,9 +151,24 @@ impl Flatness {
             return true;
         }
         let (from, to) = (points[0], points[N - 1]);
-        let inner = &points[1..N - 1];
-        inner.iter().all(|&p| distance_squared(p, from, to) <= self.tolerance_squared)
+        let share = inner_share::<N>() * weight_ratio(curve);
+        let share = share / (share + 1.0 - inner_share::<N>());
+        let limit = self.tolerance_squared / (share * share);
+        points[1..N - 1].iter().all(|&p| distance_squared(p, from, to) <= limit)
     }
+}
+
+/// The largest sum that the weights of a Bézier curve's inner control points reach: ½ of a
+/// quadratic curve, ¾ of a cubic one. Since a distance is convex, the curve is at most this part
+/// of the way from the chord to the farthest of them.
+pub(crate) const fn inner_share<const N: usize>() -> f64 {
+    if N == 3 { 0.5 } else { 0.75 }
+}
+
+/// By how much the inner control points of a rational curve may weigh more than its ends.
+fn weight_ratio<const N: usize>(curve: &[DVec3; N]) -> f64 {
+    let inner = curve[1..N - 1].iter().fold(0.0f64, |max, p| max.max(p.z));
+    inner / curve[0].z.min(curve[N - 1].z)
 }
 
 /// Points of which means can be taken.

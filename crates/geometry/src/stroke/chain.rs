@@ -1,4 +1,4 @@
-use crate::flatten::{distance_squared, subdivide};
+use crate::flatten::{distance_squared, inner_share, subdivide};
 use crate::path::Cursor;
 use crate::{DVec2, Path, PathElement};
 use alloc::vec::Vec;
@@ -118,8 +118,8 @@ impl Builder {
         }
         let (from, to) = (piece[0], piece[N - 1]);
         let chord = to - from;
-        let tolerance_squared = self.tolerance * self.tolerance;
-        let near = |&p: &DVec2| distance_squared(p, from, to) <= tolerance_squared;
+        let reach = self.tolerance / inner_share::<N>();
+        let near = |&p: &DVec2| distance_squared(p, from, to) <= reach * reach;
         // |sine of the angle| · radius ≤ tolerance.
         let straight = |leg: DVec2| {
             let sine = leg.perp_dot(chord).abs() * self.radius;
