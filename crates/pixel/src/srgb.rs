@@ -115,7 +115,8 @@ pub const fn decode8(code: u8) -> f32 {
 #[must_use]
 #[inline]
 pub fn encode8(linear: f32) -> u8 {
-    let x = linear.max(FIRST_CELL).min(BELOW_ONE);
+    // NaN fails the comparison.
+    let x = if linear > FIRST_CELL { linear.min(BELOW_ONE) } else { FIRST_CELL };
     let start = CELLS[((x.to_bits() - FIRST_CELL.to_bits()) >> CELL_SHIFT) as usize];
     start + u8::from(x >= THRESHOLDS[start as usize])
 }
