@@ -45,6 +45,13 @@ const STANDARD_16: &[[i8; 2]] = &[
     [-7, -8],
 ];
 
+/// One sample, at the centre.
+impl Default for SamplePattern {
+    fn default() -> Self {
+        Self::build(alloc::vec![[128, 128]])
+    }
+}
+
 impl SamplePattern {
     /// The standard positions of Direct3D and Vulkan for 1, 2, 4, 8 or 16 samples.
     ///
