@@ -47,6 +47,13 @@ pub struct ImageView<'a, P> {
     data: &'a [P],
 }
 
+/// An image without pixels.
+impl<P> Default for Image<P> {
+    fn default() -> Self {
+        Self { width: 0, height: 0, data: Vec::new() }
+    }
+}
+
 impl<P: Clone> Image<P> {
     /// An image with every pixel equal to `pixel`.
     ///

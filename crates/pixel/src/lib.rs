@@ -12,6 +12,11 @@ extern crate alloc;
 
 mod color;
 mod image;
+mod space;
+pub mod srgb;
+mod unorm;
 
-pub use color::{Premul, Straight, WorkingSpace};
+pub use color::{Premul, Straight};
 pub use image::{Image, ImageError, ImageView};
+pub use space::WorkingSpace;
+pub use unorm::{unorm8, unorm16};
