@@ -13,16 +13,35 @@
 extern crate alloc;
 
 mod affine;
+mod clip;
+mod contours;
 mod error;
 mod fill_rule;
+#[cfg(feature = "paths")]
+mod flatten;
 mod homography;
+mod interpolator;
+mod line;
+mod math;
 mod matrix2;
+#[cfg(feature = "paths")]
+mod path;
 mod rect;
+#[cfg(feature = "paths")]
+mod stroke;
 
 pub use affine::Affine;
+pub use clip::{clip_polygon, clip_polygon_to_rect};
+pub use contours::Contours;
 pub use error::GeometryError;
 pub use fill_rule::FillRule;
 pub use glam::{DVec2, DVec3};
 pub use homography::Homography;
+pub use interpolator::Interpolator;
+pub use line::{line_quad, line_quad_square};
 pub use matrix2::{Axes, Matrix2};
+#[cfg(feature = "paths")]
+pub use path::{Path, PathElement};
 pub use rect::{IntRect, Rect};
+#[cfg(feature = "paths")]
+pub use stroke::{Cap, Join, StrokeStyle};

@@ -56,6 +56,13 @@ impl<P> Clone for ImageView<'_, P> {
 
 impl<P> Copy for ImageView<'_, P> {}
 
+/// An image without pixels.
+impl<P> Default for Image<P> {
+    fn default() -> Self {
+        Self { width: 0, height: 0, data: Vec::new() }
+    }
+}
+
 impl<P: Clone> Image<P> {
     /// An image with every pixel equal to `pixel`.
     ///
