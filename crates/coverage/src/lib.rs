@@ -47,6 +47,7 @@
 
 extern crate alloc;
 
+mod accumulate;
 mod edge;
 mod error;
 mod fixed;
@@ -59,6 +60,7 @@ mod scratch;
 mod shape;
 mod sink;
 mod triangle;
+mod triangle_area;
 
 pub use error::CoverageError;
 pub use fixed::FixedPoint;
@@ -68,4 +70,4 @@ pub use pattern::SamplePattern;
 pub use scratch::Scratch;
 pub use scumble_geometry::{DVec2, FillRule, IntRect};
 pub use shape::{Cover, Shape};
-pub use sink::Sink;
+pub use sink::{AreaSink, Sink};

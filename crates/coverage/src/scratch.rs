@@ -1,3 +1,4 @@
+use crate::accumulate::AreaRow;
 use crate::polygon::PolygonScratch;
 use crate::triangle::TriangleScratch;
 
@@ -6,6 +7,7 @@ use crate::triangle::TriangleScratch;
 #[derive(Debug, Clone, Default)]
 pub struct Scratch {
     pub(crate) triangle: TriangleScratch,
+    pub(crate) area: AreaRow,
     pub(crate) polygon: PolygonScratch,
 }
 

@@ -135,6 +135,10 @@ impl Triangle {
         }
     }
 
+    pub(crate) fn corners(&self) -> [FixedPoint; 3] {
+        self.corners
+    }
+
     pub(crate) fn edges(&self) -> [Edge; 3] {
         let [p, q, r] = self.corners;
         [Edge::new(p, q), Edge::new(q, r), Edge::new(r, p)]

@@ -1,8 +1,9 @@
 //! What colour a primitive has at a position: the one thing that a tile asks of it.
 
-use scumble_geometry::{DVec2, DVec3, Homography, Interpolator};
+use crate::plan::Surface;
+use scumble_geometry::{DVec2, DVec3, Homography, Interpolator, Matrix2};
 use scumble_pixel::Premul;
-use scumble_texture::{Footprint, Sampler, Texture};
+use scumble_texture::{Footprint, Sampler};
 
 /// How a primitive is coloured, in the working space.
 #[derive(Debug, Clone)]
@@ -28,9 +29,7 @@ impl Gouraud {
     /// Colours at three homogeneous positions (x·w, y·w, w) on the screen; `None` without area.
     pub(crate) fn new(positions: [DVec3; 3], colors: [Premul; 3]) -> Option<Self> {
         let [a, b, c] = colors.map(|color| color.0);
-        let pick = |f: fn(f32, f32) -> f32| {
-            Premul(std::array::from_fn(|i| f(f(a[i], b[i]), c[i])))
-        };
+        let pick = |f: fn(f32, f32) -> f32| Premul(std::array::from_fn(|i| f(f(a[i], b[i]), c[i])));
         Some(Self {
             interpolator: Interpolator::new(positions).ok()?,
             colors,
@@ -57,8 +56,8 @@ impl Gouraud {
 pub(crate) struct Textured {
     /// From pixels to texels of level 0.
     pub(crate) map: Homography,
-    /// Which texture of the plan.
-    pub(crate) texture: usize,
+    /// Which surface of the plan.
+    pub(crate) surface: usize,
     /// How it is filtered.
     pub(crate) sampler: Sampler,
     /// Opacity of the whole.
@@ -68,8 +67,9 @@ pub(crate) struct Textured {
 }
 
 impl Textured {
-    fn row(&self, textures: &[Option<Texture>], start: DVec2, out: &mut [Premul]) {
-        let Some(texture) = textures.get(self.texture).and_then(Option::as_ref) else {
+    fn row(&self, surfaces: &[Option<Surface>], start: DVec2, out: &mut [Premul]) {
+        let Some(Surface { texture, .. }) = surfaces.get(self.surface).and_then(Option::as_ref)
+        else {
             return out.fill(Premul::TRANSPARENT);
         };
         texture.sample_row(&self.map, start, &self.sampler, out);
@@ -77,12 +77,13 @@ impl Textured {
     }
 
     /// The colour at one position over a footprint `share` times as wide as a pixel's.
-    fn share(&self, textures: &[Option<Texture>], p: DVec2, share: f64) -> Premul {
-        let Some(texture) = textures.get(self.texture).and_then(Option::as_ref) else {
+    fn share(&self, surfaces: &[Option<Surface>], p: DVec2, share: f64) -> Premul {
+        let Some(Surface { texture, .. }) = surfaces.get(self.surface).and_then(Option::as_ref)
+        else {
             return Premul::TRANSPARENT;
         };
-        let mut footprint = Footprint::new(&self.map, p);
-        footprint.jacobian = footprint.jacobian * share;
+        let mut footprint = Footprint::at(&self.map, p);
+        footprint.jacobian = footprint.jacobian * Matrix2::new(share, 0.0, 0.0, share);
         let mut color = [texture.sample(&footprint, &self.sampler)];
         self.finish(&mut color);
         color[0]
@@ -118,7 +119,7 @@ impl Paint {
     }
 
     /// The colours at `start`, `start` + (1, 0), and so on.
-    pub(crate) fn row(&self, textures: &[Option<Texture>], start: DVec2, out: &mut [Premul]) {
+    pub(crate) fn row(&self, surfaces: &[Option<Surface>], start: DVec2, out: &mut [Premul]) {
         match self {
             Self::Solid(color) => out.fill(*color),
             Self::Gouraud(gouraud) => {
@@ -126,28 +127,28 @@ impl Paint {
                     *color = gouraud.at(DVec2::new(start.x + i as f64, start.y));
                 }
             }
-            Self::Textured(textured) => textured.row(textures, start, out),
+            Self::Textured(textured) => textured.row(surfaces, start, out),
         }
     }
 
     /// The colour at the position of a sample whose share of the pixel is `share` wide.
-    pub(crate) fn sample(&self, textures: &[Option<Texture>], p: DVec2, share: f64) -> Premul {
+    pub(crate) fn sample(&self, surfaces: &[Option<Surface>], p: DVec2, share: f64) -> Premul {
         match self {
             Self::Solid(color) => *color,
             Self::Gouraud(gouraud) => gouraud.at(p),
-            Self::Textured(textured) => textured.share(textures, p, share),
+            Self::Textured(textured) => textured.share(surfaces, p, share),
         }
     }
 
     /// The colour at one position, or at `fallback` where the first lies behind the eye: the
     /// centre of a pixel on the horizon, whose covered samples do not.
-    pub(crate) fn at(&self, textures: &[Option<Texture>], p: DVec2, fallback: DVec2) -> Premul {
+    pub(crate) fn at(&self, surfaces: &[Option<Surface>], p: DVec2, fallback: DVec2) -> Premul {
         let p = match self {
             Self::Textured(textured) if !textured.sees(p) => fallback,
             _ => p,
         };
         let mut color = [Premul::TRANSPARENT];
-        self.row(textures, p, &mut color);
+        self.row(surfaces, p, &mut color);
         color[0]
     }
 }

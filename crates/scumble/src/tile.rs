@@ -166,12 +166,12 @@ impl Painter<'_> {
 
     /// Evaluates and blends the samples of a mask, each at its own position.
     fn samples(&mut self, x: i32, y: i32, mask: u64) {
-        let textures = &self.job.plan.textures;
+        let surfaces = &self.job.plan.surfaces;
         let share = 1.0 / (self.pattern().len() as f64).sqrt();
         self.colors.clear();
         for (i, &offset) in self.job.settings.pattern.offsets().iter().enumerate() {
             if mask >> i & 1 == 1 {
-                self.colors.push(self.paint.sample(textures, position(x, y, offset), share));
+                self.colors.push(self.paint.sample(surfaces, position(x, y, offset), share));
             }
         }
         let (lx, ly) = self.local(x, y);
@@ -204,7 +204,7 @@ impl Sink for Painter<'_> {
         }
         self.colors.clear();
         self.colors.resize(x1.abs_diff(x0) as usize, Premul::TRANSPARENT);
-        self.paint.row(&self.job.plan.textures, centre(x0, y), self.colors);
+        self.paint.row(&self.job.plan.surfaces, centre(x0, y), self.colors);
         self.tile.blend_run(x, local_y, self.colors);
     }
 
@@ -216,7 +216,7 @@ impl Sink for Painter<'_> {
             Paint::Solid(color) => *color,
             paint => {
                 let fallback = centroid(x, y, self.pattern(), mask);
-                paint.at(&self.job.plan.textures, centre(x, y), fallback)
+                paint.at(&self.job.plan.surfaces, centre(x, y), fallback)
             }
         };
         let (lx, ly) = self.local(x, y);

@@ -1,6 +1,8 @@
 //! The definition of coverage, as slowly as it can be said, and helpers around it.
 #![allow(dead_code, missing_docs, clippy::unwrap_used)]
 
+pub(crate) mod mesh;
+
 use proptest::prelude::*;
 use scumble_coverage::*;
 use std::collections::BTreeMap;
