@@ -1,5 +1,5 @@
 use crate::ImageId;
-use scumble_geometry::{DVec2, FillRule, Homography, Path, Rect};
+use scumble_geometry::{DVec2, FillRule, Homography, Path, Rect, StrokeStyle};
 use scumble_pixel::Straight;
 use std::sync::Arc;
 
@@ -15,6 +15,8 @@ pub enum Command {
     PopLayer,
     /// A filled outline.
     Fill(Fill),
+    /// A stroked outline.
+    Stroke(Stroke),
     /// A triangle with a colour at each corner.
     Gouraud(GouraudTriangle),
     /// A triangle of a texture.
@@ -27,13 +29,27 @@ pub enum Command {
     Point(Point),
 }
 
-/// An outline filled with one colour. Strokes are fills of the stroked outline.
+/// An outline filled with one colour.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fill {
     /// The outline, in its own units; open contours are closed.
     pub path: Arc<Path>,
     /// What counts as inside.
     pub rule: FillRule,
+    /// From the path's units to scene units.
+    pub transform: Homography,
+    /// The paint.
+    pub color: Straight,
+}
+
+/// The stroke of an outline in one colour. It is widened in the path's own units, before the
+/// transform, as SVG does; the renderer widens it, because only it knows how fine curves must be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stroke {
+    /// The outline, in its own units.
+    pub path: Arc<Path>,
+    /// Width, joins, caps and dashes, in the path's units.
+    pub style: StrokeStyle,
     /// From the path's units to scene units.
     pub transform: Homography,
     /// The paint.

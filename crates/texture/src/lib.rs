@@ -1,1 +1,72 @@
-//! To be written.
+//! Texture filtering: mip pyramids and filters, from nearest to elliptical weighted averages.
+//!
+//! A pixel sees an area of a texture, not a point. A [`Footprint`] says which: a centre and a
+//! Jacobian. A [`Texture`] holds the image and its pyramid, and [`Texture::sample`] gives the
+//! average that a [`Sampler`] asks for.
+//!
+//! # Conventions
+//!
+//! - Texel (i, j) of a level covers [i, i+1) × [j, j+1); its centre is at (i + ½, j + ½). Positions
+//!   and Jacobians are in texels of level 0, y down.
+//! - Level 0 is the image. Level l is ⌊w/2ˡ⌋ × ⌊h/2ˡ⌋ and at least 1×1: coarser is a larger number.
+//! - Texels are premultiplied, in the working space that the texture was made in, and so are samples.
+//! - Every result is the same, bit for bit, on every machine.
+//! - Nothing panics, whatever the numbers are; work for each sample is bounded (below).
+//!
+//! # The elliptical filter
+//!
+//! The pixel is a Gaussian, σ = ½ pixel. Under the Jacobian it becomes an elliptical Gaussian in the
+//! texture, to which the reconstruction between texels adds a variance of 1/6. The ellipse is read
+//! in the level of the pyramid where its minor axis has a σ of [`Sampler::least_sigma`] to twice that
+//! in texels, so a sample costs about as many texels whatever the distance; only its axis ratio
+//! counts, and [`Sampler::max_eccentricity`] bounds that. After Heckbert (1989), with the variance of
+//! the pyramid's own blur subtracted.
+//!
+//! A sample reads at most π·R²·4s²·a texels (R the radius, s the least σ, a the largest axis ratio)
+//! or 16,384, whichever is more; rows are read in whole groups of 8, so count twice that. Where no
+//! coarser level can bring an ellipse within that (level zero asked for; no pyramid), it is shrunk to
+//! it.
+//!
+//! # Example
+//!
+//! ```
+//! use scumble_geometry::Matrix2;
+//! use scumble_pixel::Image;
+//! use scumble_texture::{Footprint, Sampler, Texture, TextureOptions};
+//!
+//! // A checkerboard of single texels, seen from so far that a pixel covers 16×16 of them.
+//! let texels = (0..64 * 64).map(|i| if (i + i / 64) % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] });
+//! let image = Image::from_vec(64, 64, texels.collect())?;
+//! let texture = Texture::new(image.view(), &TextureOptions::default())?;
+//! let pixel = Footprint { u: 31.2, v: 30.7, jacobian: Matrix2::new(16.0, 0.0, 0.0, 16.0) };
+//! let [r, _, _, alpha] = texture.sample(&pixel, &Sampler::default()).0;
+//! assert!((r - 0.5).abs() < 0.01 && alpha == 1.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![cfg_attr(not(feature = "std"), no_std)]
+
+extern crate alloc;
+
+mod decimate;
+mod error;
+mod ewa;
+mod footprint;
+mod gaussian;
+mod level;
+mod lod;
+mod math;
+mod options;
+mod point;
+pub mod reference;
+mod sampler;
+mod srgb;
+mod texture;
+mod walk;
+mod wrap;
+
+pub use error::TextureError;
+pub use footprint::Footprint;
+pub use options::{Decimation, Levels, TextureOptions};
+pub use sampler::{LevelMode, PixelFilter, Sampler};
+pub use texture::Texture;
+pub use wrap::Wrap;

@@ -1,0 +1,115 @@
+use alloc::vec::Vec;
+use scumble_pixel::Premul;
+
+/// A pixel's samples in [`SampleStore`]; 0 is a pixel that has none of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Slot(u32);
+
+impl Slot {
+    /// The pixel is uniform: its colour stands for all its samples.
+    pub(crate) const UNIFORM: Self = Self(0);
+
+    pub(crate) fn is_uniform(self) -> bool {
+        self == Self::UNIFORM
+    }
+
+    fn index(self) -> usize {
+        self.0 as usize - 1
+    }
+}
+
+/// The samples of the pixels that have been told apart, packed in the order in which that
+/// happened, so that a tile with few edges touches little memory.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct SampleStore {
+    per_pixel: usize,
+    colors: Vec<Premul>,
+    /// Per slot: the samples written since they were last seen to differ. Once all have been, they
+    /// are worth comparing.
+    touched: Vec<u64>,
+    free: Vec<Slot>,
+}
+
+impl SampleStore {
+    /// Forgets every slot, keeps the allocation.
+    pub(crate) fn reset(&mut self, per_pixel: usize) {
+        self.per_pixel = per_pixel;
+        self.colors.clear();
+        self.touched.clear();
+        self.free.clear();
+    }
+
+    /// A slot with every sample equal to `color`.
+    pub(crate) fn take(&mut self, color: Premul) -> Slot {
+        if let Some(slot) = self.free.pop() {
+            self.get_mut(slot).fill(color);
+            self.touched[slot.index()] = 0;
+            return slot;
+        }
+        self.colors.resize(self.colors.len() + self.per_pixel, color);
+        self.touched.push(0);
+        Slot(self.touched.len() as u32)
+    }
+
+    /// Gives a slot back.
+    pub(crate) fn release(&mut self, slot: Slot) {
+        self.free.push(slot);
+    }
+
+    pub(crate) fn get(&self, slot: Slot) -> &[Premul] {
+        let start = slot.index() * self.per_pixel;
+        &self.colors[start..start + self.per_pixel]
+    }
+
+    pub(crate) fn get_mut(&mut self, slot: Slot) -> &mut [Premul] {
+        let start = slot.index() * self.per_pixel;
+        &mut self.colors[start..start + self.per_pixel]
+    }
+
+    /// Notes that the samples in `mask` have changed; whether all are alike now, as far as is
+    /// worth knowing: two triangles of one colour that share the pixel leave it uniform.
+    pub(crate) fn touch(&mut self, slot: Slot, mask: u64, full: u64) -> bool {
+        let touched = &mut self.touched[slot.index()];
+        *touched |= mask;
+        if *touched != full {
+            return false;
+        }
+        *touched = 0;
+        let samples = self.get(slot);
+        samples.iter().all(|&s| same_bits(s, samples[0]))
+    }
+}
+
+/// Equality of bits: what it calls equal nothing downstream can tell apart.
+pub(crate) fn same_bits(a: Premul, b: Premul) -> bool {
+    a.0.map(f32::to_bits) == b.0.map(f32::to_bits)
+}
+
+/// The mean of the samples: the first, plus the mean of the differences from it, so that the mean
+/// of equal samples is that value to the bit.
+///
+/// The differences are added in four chains, sample i to chain i mod 4, and then
+/// (0 + 1) + (2 + 3): a fixed order that a machine of any vector width can follow.
+pub(crate) fn mean(samples: &[Premul]) -> Premul {
+    let Some(&Premul(first)) = samples.first() else { return Premul::TRANSPARENT };
+    let mut chains = [[0.0_f32; 4]; 4];
+    let (groups, rest) = samples.as_chunks::<4>();
+    for group in groups {
+        for (chain, sample) in chains.iter_mut().zip(group) {
+            add_difference(chain, sample, &first);
+        }
+    }
+    for (chain, sample) in chains.iter_mut().zip(rest) {
+        add_difference(chain, sample, &first);
+    }
+    let n = samples.len() as f32;
+    let [c0, c1, c2, c3] = chains;
+    Premul(core::array::from_fn(|c| first[c] + ((c0[c] + c1[c]) + (c2[c] + c3[c])) / n))
+}
+
+#[inline]
+fn add_difference(sum: &mut [f32; 4], sample: &Premul, first: &[f32; 4]) {
+    for c in 0..4 {
+        sum[c] += sample.0[c] - first[c];
+    }
+}

@@ -1,0 +1,39 @@
+//! `lab assets DIR` draws the assets into a folder; `lab assets DIR --check` compares.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    let done = match args.as_slice() {
+        ["assets", folder] => assets(Path::new(folder), false),
+        ["assets", folder, "--check"] => assets(Path::new(folder), true),
+        _ => {
+            eprintln!("usage: lab assets DIR [--check]");
+            return ExitCode::from(2);
+        }
+    };
+    match done {
+        Ok(report) => {
+            println!("{report}");
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn assets(folder: &Path, check: bool) -> Result<String, lab::LabError> {
+    let files = lab::assets()?;
+    if check {
+        lab::check(folder, &files)?;
+    } else {
+        lab::write(folder, &files)?;
+    }
+    let total: usize = files.iter().map(|f| f.bytes.len()).sum();
+    let verb = if check { "match" } else { "written" };
+    Ok(format!("{} files, {} KiB: {verb}", files.len(), total / 1024))
+}

@@ -1,0 +1,154 @@
+//! What colour a primitive has at a position: the one thing that a tile asks of it.
+
+use crate::plan::Surface;
+use scumble_geometry::{DVec2, DVec3, Homography, Interpolator, Matrix2};
+use scumble_pixel::Premul;
+use scumble_texture::{Footprint, Sampler};
+
+/// How a primitive is coloured, in the working space.
+#[derive(Debug, Clone)]
+pub(crate) enum Paint {
+    /// One colour.
+    Solid(Premul),
+    /// Colours interpolated between three corners.
+    Gouraud(Box<Gouraud>),
+    /// An image.
+    Textured(Box<Textured>),
+}
+
+/// Colours interpolated between the corners of a triangle.
+#[derive(Debug, Clone)]
+pub(crate) struct Gouraud {
+    interpolator: Interpolator,
+    colors: [Premul; 3],
+    low: Premul,
+    high: Premul,
+}
+
+impl Gouraud {
+    /// Colours at three homogeneous positions (x·w, y·w, w) on the screen; `None` without area.
+    pub(crate) fn new(positions: [DVec3; 3], colors: [Premul; 3]) -> Option<Self> {
+        let [a, b, c] = colors.map(|color| color.0);
+        let pick = |f: fn(f32, f32) -> f32| Premul(std::array::from_fn(|i| f(f(a[i], b[i]), c[i])));
+        Some(Self {
+            interpolator: Interpolator::new(positions).ok()?,
+            colors,
+            low: pick(f32::min),
+            high: pick(f32::max),
+        })
+    }
+
+    /// The colour at a position. Just outside the triangle, where the centre of a pixel may lie
+    /// that the triangle covers in part, it stays between the corners' colours.
+    fn at(&self, p: DVec2) -> Premul {
+        let weights = self.interpolator.barycentrics(p).map(|w| w as f32);
+        let [a, b, c] = self.colors.map(|color| color.0);
+        Premul(std::array::from_fn(|i| {
+            let value = a[i] * weights[0] + b[i] * weights[1] + c[i] * weights[2];
+            // In this order a NaN becomes the lower bound.
+            value.max(self.low.0[i]).min(self.high.0[i])
+        }))
+    }
+}
+
+/// An image laid over the screen by a projective map.
+#[derive(Debug, Clone)]
+pub(crate) struct Textured {
+    /// From pixels to texels of level 0.
+    pub(crate) map: Homography,
+    /// Which surface of the plan.
+    pub(crate) surface: usize,
+    /// How it is filtered.
+    pub(crate) sampler: Sampler,
+    /// Opacity of the whole.
+    pub(crate) opacity: f32,
+    /// Whether every texel is opaque, so that every pixel is.
+    pub(crate) opaque: bool,
+}
+
+impl Textured {
+    fn row(&self, surfaces: &[Option<Surface>], start: DVec2, out: &mut [Premul]) {
+        let Some(Surface { texture, .. }) = surfaces.get(self.surface).and_then(Option::as_ref)
+        else {
+            return out.fill(Premul::TRANSPARENT);
+        };
+        texture.sample_row(&self.map, start, &self.sampler, out);
+        self.finish(out);
+    }
+
+    /// The colour at one position over a footprint `share` times as wide as a pixel's.
+    fn share(&self, surfaces: &[Option<Surface>], p: DVec2, share: f64) -> Premul {
+        let Some(Surface { texture, .. }) = surfaces.get(self.surface).and_then(Option::as_ref)
+        else {
+            return Premul::TRANSPARENT;
+        };
+        let mut footprint = Footprint::at(&self.map, p);
+        footprint.jacobian = footprint.jacobian * Matrix2::new(share, 0.0, 0.0, share);
+        let mut color = [texture.sample(&footprint, &self.sampler)];
+        self.finish(&mut color);
+        color[0]
+    }
+
+    fn finish(&self, colors: &mut [Premul]) {
+        for color in colors {
+            if self.opacity < 1.0 {
+                *color = color.scaled(self.opacity);
+            }
+            // What lies under an opaque primitive may not have been drawn at all, so not the
+            // last bit of it may shine through.
+            if self.opaque {
+                color.0[3] = 1.0;
+            }
+        }
+    }
+
+    /// Whether a position lies before the eye, so that the map means something there.
+    fn sees(&self, p: DVec2) -> bool {
+        self.map.project_homogeneous(p).z > 0.0
+    }
+}
+
+impl Paint {
+    /// Whether every pixel is opaque.
+    pub(crate) fn is_opaque(&self) -> bool {
+        match self {
+            Self::Solid(color) => color.alpha() >= 1.0,
+            Self::Gouraud(gouraud) => gouraud.low.alpha() >= 1.0,
+            Self::Textured(textured) => textured.opaque,
+        }
+    }
+
+    /// The colours at `start`, `start` + (1, 0), and so on.
+    pub(crate) fn row(&self, surfaces: &[Option<Surface>], start: DVec2, out: &mut [Premul]) {
+        match self {
+            Self::Solid(color) => out.fill(*color),
+            Self::Gouraud(gouraud) => {
+                for (i, color) in out.iter_mut().enumerate() {
+                    *color = gouraud.at(DVec2::new(start.x + i as f64, start.y));
+                }
+            }
+            Self::Textured(textured) => textured.row(surfaces, start, out),
+        }
+    }
+
+    /// The colour at the position of a sample whose share of the pixel is `share` wide.
+    pub(crate) fn sample(&self, surfaces: &[Option<Surface>], p: DVec2, share: f64) -> Premul {
+        match self {
+            Self::Solid(color) => *color,
+            Self::Gouraud(gouraud) => gouraud.at(p),
+            Self::Textured(textured) => textured.share(surfaces, p, share),
+        }
+    }
+
+    /// The colour at one position, or at `fallback` where the first lies behind the eye: the
+    /// centre of a pixel on the horizon, whose covered samples do not.
+    pub(crate) fn at(&self, surfaces: &[Option<Surface>], p: DVec2, fallback: DVec2) -> Premul {
+        let p = match self {
+            Self::Textured(textured) if !textured.sees(p) => fallback,
+            _ => p,
+        };
+        let mut color = [Premul::TRANSPARENT];
+        self.row(surfaces, p, &mut color);
+        color[0]
+    }
+}

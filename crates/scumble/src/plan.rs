@@ -1,0 +1,334 @@
+//! From a scene to primitives: transformed, flattened, snapped, with textures built.
+
+use crate::paint::{Gouraud, Paint, Textured};
+use crate::{Interpolation, Settings};
+use scumble_coverage::Shape;
+use scumble_geometry::{
+    Affine, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Rect, clip_polygon, line_quad,
+};
+use scumble_pixel::{Premul, Straight};
+use scumble_scene::{
+    Command, Fill, GouraudTriangle, Hairline, ImageId, ImageQuad, Point, Scene, Stroke,
+    TexturedTriangle,
+};
+use scumble_texture::{LevelMode, PixelFilter, Sampler, Texture};
+
+/// An image of the scene, ready to be sampled.
+#[derive(Debug)]
+pub(crate) struct Surface {
+    pub(crate) texture: Texture,
+    /// Whether every texel is opaque, so that every average of them is.
+    pub(crate) opaque: bool,
+}
+
+/// How far, in pixels, a chord may lie from its curve: a sixty-fourth is an error of about one
+/// grey level in 255 on a pixel that the curve crosses. Halving it costs 1.4 times the points.
+const FLATNESS: f64 = 1.0 / 64.0;
+
+/// A primitive, ready to be drawn.
+#[derive(Debug)]
+pub(crate) struct Draw {
+    pub(crate) form: Form,
+    pub(crate) paint: Paint,
+    /// Which layer it is painted on.
+    pub(crate) layer: u32,
+    /// The pixels of the canvas that it may touch.
+    pub(crate) bounds: IntRect,
+}
+
+/// Which samples a primitive owns.
+#[derive(Debug)]
+pub(crate) enum Form {
+    /// Those inside an outline.
+    Shape(Shape),
+    /// The pixels of a one-pixel line.
+    Chain([DVec2; 2]),
+    /// All of one pixel, the one at the top left of the bounds.
+    Pixel,
+}
+
+/// A group with an opacity of its own. Layer 0 is the canvas.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Layer {
+    pub(crate) parent: u32,
+    pub(crate) opacity: f32,
+}
+
+/// What the tiles replay.
+#[derive(Debug)]
+pub(crate) struct Plan {
+    pub(crate) draws: Vec<Draw>,
+    pub(crate) layers: Vec<Layer>,
+    /// By image index; `None` where no command uses the image.
+    pub(crate) surfaces: Vec<Option<Surface>>,
+}
+
+/// Makes the primitives of a scene for given settings.
+pub(crate) fn build(scene: &Scene, settings: &Settings, surfaces: Vec<Option<Surface>>) -> Plan {
+    let canvas = IntRect::new(0, 0, settings.width as i32, settings.height as i32);
+    let mut planner = Planner {
+        settings,
+        view: scene.view.transform(settings.width, settings.height).into(),
+        canvas,
+        layer: 0,
+        plan: Plan {
+            draws: Vec::with_capacity(scene.commands.len()),
+            layers: vec![Layer { parent: 0, opacity: 1.0 }],
+            surfaces,
+        },
+    };
+    for command in &scene.commands {
+        planner.command(command);
+    }
+    planner.layer = 0;
+    for ends in scene.view.frame(settings.width, settings.height).into_iter().flatten() {
+        planner.hairline_on_canvas(ends, Straight::BLACK);
+    }
+    planner.plan
+}
+
+struct Planner<'a> {
+    settings: &'a Settings,
+    view: Homography,
+    canvas: IntRect,
+    layer: u32,
+    plan: Plan,
+}
+
+impl Planner<'_> {
+    fn command(&mut self, command: &Command) {
+        match command {
+            Command::PushLayer { opacity } => self.push_layer(*opacity),
+            Command::PopLayer => {
+                self.layer = self.plan.layers[self.layer as usize].parent;
+            }
+            Command::Fill(fill) => self.fill(fill),
+            Command::Stroke(stroke) => self.stroke(stroke),
+            Command::Gouraud(triangle) => self.gouraud(triangle),
+            Command::Textured(triangle) => self.textured(triangle),
+            Command::Image(quad) => self.image(quad),
+            Command::Hairline(line) => self.hairline(line),
+            Command::Point(point) => self.point(point),
+        }
+    }
+
+    fn push_layer(&mut self, opacity: f32) {
+        let layer = Layer { parent: self.layer, opacity: opacity.clamp(0.0, 1.0) };
+        self.layer = self.plan.layers.len() as u32;
+        self.plan.layers.push(layer);
+    }
+
+    fn to_canvas(&self, transform: &Homography) -> Homography {
+        self.view * *transform
+    }
+
+    fn import(&self, color: Straight) -> Premul {
+        self.settings.space.import(color)
+    }
+
+    fn push(&mut self, form: Form, bounds: IntRect, paint: Paint) {
+        let bounds = bounds.intersect(&self.canvas);
+        if !bounds.is_empty() {
+            self.plan.draws.push(Draw { form, paint, layer: self.layer, bounds });
+        }
+    }
+
+    /// Coordinates that are not finite draw nothing: readers refuse them long before.
+    fn push_shape(&mut self, shape: Option<Shape>, paint: Paint) {
+        if let Some(shape) = shape {
+            let bounds = shape.bounds();
+            self.push(Form::Shape(shape), bounds, paint);
+        }
+    }
+
+    fn push_contours(&mut self, contours: &Contours, rule: FillRule, paint: Paint) {
+        let shape = Shape::polygon(contours.iter(), rule).ok().flatten();
+        self.push_shape(shape, paint);
+    }
+
+    fn fill(&mut self, fill: &Fill) {
+        let contours = fill.path.flatten(&self.to_canvas(&fill.transform), FLATNESS);
+        let paint = Paint::Solid(self.import(fill.color));
+        self.push_contours(&contours, fill.rule, paint);
+    }
+
+    fn stroke(&mut self, stroke: &Stroke) {
+        let to_canvas = self.to_canvas(&stroke.transform);
+        let outline = stroke.path.stroke(&stroke.style, FLATNESS / scale_of(&to_canvas, stroke));
+        let paint = Paint::Solid(self.import(stroke.color));
+        self.push_contours(&outline.flatten(&to_canvas, FLATNESS), FillRule::NonZero, paint);
+    }
+
+    fn gouraud(&mut self, triangle: &GouraudTriangle) {
+        let to_canvas = self.to_canvas(&triangle.transform);
+        let corners = triangle.points.map(|p| to_canvas.project_homogeneous(p));
+        let colors = triangle.colors.map(|color| self.import(color));
+        let paint = if colors[0] == colors[1] && colors[1] == colors[2] {
+            Some(Paint::Solid(colors[0]))
+        } else {
+            Gouraud::new(self.attribute_corners(corners), colors)
+                .map(|gouraud| Paint::Gouraud(Box::new(gouraud)))
+        };
+        if let Some(paint) = paint {
+            self.push_shape(triangle_shape(corners, to_canvas.near_w()), paint);
+        }
+    }
+
+    fn textured(&mut self, triangle: &TexturedTriangle) {
+        let to_canvas = self.to_canvas(&triangle.transform);
+        let TexturedTriangle { points, uvs, image, opacity, .. } = *triangle;
+        self.textured_corners(&to_canvas, points, uvs, image, opacity);
+    }
+
+    fn textured_corners(
+        &mut self,
+        to_canvas: &Homography,
+        points: [DVec2; 3],
+        uvs: [DVec2; 3],
+        image: ImageId,
+        opacity: f32,
+    ) {
+        let Some(size) = self.texture_size(image) else { return };
+        let corners = points.map(|p| to_canvas.project_homogeneous(p));
+        let texels = uvs.map(|uv| uv * size);
+        let Ok(map) = Homography::from_triangle(self.attribute_corners(corners), texels) else {
+            return;
+        };
+        let paint = self.texture_paint(image, map, self.settings.sampler, opacity);
+        self.push_shape(triangle_shape(corners, to_canvas.near_w()), paint);
+    }
+
+    fn image(&mut self, quad: &ImageQuad) {
+        let to_canvas = self.to_canvas(&quad.transform);
+        if self.settings.interpolation == Interpolation::Affine && !to_canvas.is_affine() {
+            let (corners, uvs) = (quad.rect.corners(), quad.source.corners());
+            for half in [[0, 1, 2], [0, 2, 3]] {
+                let (points, uvs) = (half.map(|i: usize| corners[i]), half.map(|i| uvs[i]));
+                self.textured_corners(&to_canvas, points, uvs, quad.image, quad.opacity);
+            }
+            return;
+        }
+        let Some(size) = self.texture_size(quad.image) else { return };
+        let Ok(from_canvas) = to_canvas.inverse() else { return };
+        let source = quad.source;
+        let texels = Rect::new(
+            source.x0 * size.x,
+            source.y0 * size.y,
+            source.x1 * size.x,
+            source.y1 * size.y,
+        );
+        let map = Homography::from(Affine::rect_to_rect(quad.rect, texels)) * from_canvas;
+        let sampler = if quad.pixelated {
+            Sampler { pixel: PixelFilter::Nearest, level: LevelMode::Zero, ..self.settings.sampler }
+        } else {
+            self.settings.sampler
+        };
+        let paint = self.texture_paint(quad.image, map, sampler, quad.opacity);
+        let corners = quad.rect.corners().map(|p| to_canvas.project_homogeneous(p));
+        self.push_shape(polygon_shape(&corners, to_canvas.near_w()), paint);
+    }
+
+    fn hairline(&mut self, line: &Hairline) {
+        let to_canvas = self.to_canvas(&line.transform);
+        let ends = [line.from, line.to].map(|p| to_canvas.project_homogeneous(p));
+        if let Some(ends) = visible_part(ends, to_canvas.near_w()) {
+            self.hairline_on_canvas(ends, line.color);
+        }
+    }
+
+    /// One sample: a chain of pixels. More: a quad one pixel wide, antialiased like all else.
+    fn hairline_on_canvas(&mut self, [a, b]: [DVec2; 2], color: Straight) {
+        let paint = Paint::Solid(self.import(color));
+        if self.settings.pattern.len() > 1 {
+            let shape = line_quad(a, b, 1.0)
+                .and_then(|quad| Shape::polygon([&quad[..]], FillRule::NonZero).ok().flatten());
+            return self.push_shape(shape, paint);
+        }
+        let Some(rect) = Rect::bounding([a, b]) else { return };
+        // Saturating casts: what lies off the canvas is cut by `push`.
+        let bounds = IntRect::new(
+            rect.x0.floor() as i32,
+            rect.y0.floor() as i32,
+            (rect.x1.floor() as i32).saturating_add(1),
+            (rect.y1.floor() as i32).saturating_add(1),
+        );
+        self.push(Form::Chain([a, b]), bounds, paint);
+    }
+
+    fn point(&mut self, point: &Point) {
+        let Some(p) = self.to_canvas(&point.transform).project(point.position) else { return };
+        let (x, y) = (p.x.floor() as i32, p.y.floor() as i32);
+        let bounds = IntRect::new(x, y, x.saturating_add(1), y.saturating_add(1));
+        let paint = Paint::Solid(self.import(point.color));
+        self.push(Form::Pixel, bounds, paint);
+    }
+
+    /// Where attributes are fixed for interpolation: the corners themselves, or, for the affine
+    /// mistake, their images on the screen.
+    fn attribute_corners(&self, corners: [DVec3; 3]) -> [DVec3; 3] {
+        let affine = self.settings.interpolation == Interpolation::Affine;
+        if affine && corners.iter().all(|c| c.z > 0.0) {
+            return corners.map(|c| DVec3::new(c.x / c.z, c.y / c.z, 1.0));
+        }
+        corners
+    }
+
+    fn texture_size(&self, image: ImageId) -> Option<DVec2> {
+        let Surface { texture, .. } = self.plan.surfaces.get(image.0)?.as_ref()?;
+        Some(DVec2::new(texture.width() as f64, texture.height() as f64))
+    }
+
+    fn texture_paint(
+        &self,
+        image: ImageId,
+        map: Homography,
+        sampler: Sampler,
+        opacity: f32,
+    ) -> Paint {
+        let surface = self.plan.surfaces.get(image.0).and_then(Option::as_ref);
+        let opaque = opacity >= 1.0 && surface.is_some_and(|surface| surface.opaque);
+        Paint::Textured(Box::new(Textured { map, surface: image.0, sampler, opacity, opaque }))
+    }
+}
+
+/// How many pixels a unit of a stroked path's coordinates is worth, at the most.
+fn scale_of(to_canvas: &Homography, stroke: &Stroke) -> f64 {
+    let bounds = stroke.path.bounds();
+    let corners = bounds.into_iter().flat_map(|rect| rect.corners());
+    let largest = corners
+        .map(|p| to_canvas.jacobian(p).axes().major)
+        .filter(|scale| scale.is_finite())
+        .fold(0.0, f64::max);
+    // Near the horizon the scale has no bound; curves this fine serve any picture.
+    if largest > 0.0 { largest.min(1e4) } else { 1.0 }
+}
+
+fn triangle_shape(corners: [DVec3; 3], min_w: f64) -> Option<Shape> {
+    if corners.iter().all(|c| c.z >= min_w) {
+        return Shape::triangle(corners.map(divide)).ok().flatten();
+    }
+    polygon_shape(&corners, min_w)
+}
+
+fn polygon_shape(corners: &[DVec3], min_w: f64) -> Option<Shape> {
+    let mut clipped = Vec::new();
+    clip_polygon(corners, min_w, &mut clipped);
+    let points: Vec<DVec2> = clipped.into_iter().map(divide).collect();
+    Shape::polygon([&points[..]], FillRule::NonZero).ok().flatten()
+}
+
+/// The part of a line before the eye, on the screen.
+fn visible_part(ends: [DVec3; 2], min_w: f64) -> Option<[DVec2; 2]> {
+    let [a, b] = ends;
+    // The line there and back is an outline.
+    let mut clipped = Vec::new();
+    clip_polygon(&[a, b], min_w, &mut clipped);
+    let seen = |p: DVec3, other: DVec3| {
+        if p.z >= min_w { Some(p) } else { clipped.iter().copied().find(|&q| q != other) }
+    };
+    Some([divide(seen(a, b)?), divide(seen(b, a)?)])
+}
+
+fn divide(p: DVec3) -> DVec2 {
+    DVec2::new(p.x / p.z, p.y / p.z)
+}

@@ -1,0 +1,183 @@
+use crate::bins::{Bins, Grid};
+use crate::plan::{self, Draw, Layer, Plan, Surface};
+use crate::schedule::{self, Pool};
+use crate::tile::Job;
+use crate::{Background, Control, ImageSink, RenderError, Settings, Sink};
+use scumble_geometry::IntRect;
+use scumble_pixel::{Image, Premul};
+use scumble_scene::{Command, ImageId, ImageWrap, Scene, SceneImage};
+use scumble_texture::{LevelMode, Levels, Texture, TextureOptions, Wrap};
+use std::convert::Infallible;
+use std::mem::size_of;
+
+/// Canvases are positioned in `i32` pixels, with room for neighbours to be computed.
+const MAX_SIDE: u32 = (1 << 30) - 1;
+
+/// What a run did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Stats {
+    /// Columns of the picture.
+    pub width: u32,
+    /// Rows of the picture.
+    pub height: u32,
+    /// Primitives that touch the canvas.
+    pub primitives: usize,
+    /// Bytes that the textures and their pyramids took.
+    pub texture_bytes: usize,
+    /// Threads used.
+    pub threads: usize,
+}
+
+/// Renders a scene into a sink, band by band from the top.
+///
+/// The bytes depend on the scene and on the settings that say so: not on
+/// [`Settings::threads`], [`Settings::tile_size`], the machine or its instruction set.
+///
+/// # Errors
+/// [`RenderError`]: a canvas or crop without pixels, the memory limit, an unusable image, the
+/// caller's cancel flag, or the sink's own error. What the sink got before is then to be dropped.
+pub fn render<S: Sink>(
+    scene: &Scene,
+    settings: &Settings,
+    sink: &mut S,
+    control: &Control<'_>,
+) -> Result<Stats, RenderError<S::Error>> {
+    let area = area(settings)?;
+    let pool = Pool::new(settings.threads).map_err(RenderError::Threads)?;
+    let surfaces = pool.install(|| surfaces(scene, settings))?;
+    let texture_bytes = surfaces.iter().flatten().map(|s| s.texture.memory()).sum();
+    let plan = plan::build(scene, settings, surfaces);
+    let grid = Grid { area, tile: settings.tile_size };
+    check_memory(&plan, settings, &grid, pool.threads(), texture_bytes)?;
+    let stats = Stats {
+        width: area.width(),
+        height: area.height(),
+        primitives: plan.draws.len(),
+        texture_bytes,
+        threads: pool.threads(),
+    };
+    let job = Job { plan: &plan, settings, background: background(scene, settings) };
+    let bins = Bins::new(grid, &plan.draws);
+    sink.start(stats.width, stats.height).map_err(RenderError::Sink)?;
+    schedule::run(&job, grid, bins, &pool, sink, control)?;
+    sink.finish().map_err(RenderError::Sink)?;
+    Ok(stats)
+}
+
+/// Renders a scene into an image in memory: sRGB-encoded, straight alpha.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_image(
+    scene: &Scene,
+    settings: &Settings,
+) -> Result<Image<[u8; 4]>, RenderError<Infallible>> {
+    let mut sink = ImageSink::new();
+    render(scene, settings, &mut sink, &Control::default())?;
+    Ok(sink.into_image())
+}
+
+/// The pixels to render.
+fn area<E>(settings: &Settings) -> Result<IntRect, RenderError<E>> {
+    let Settings { width, height, tile_size, .. } = *settings;
+    if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
+        return Err(RenderError::Canvas { width, height });
+    }
+    if !(8..=256).contains(&tile_size) {
+        return Err(RenderError::TileSize(tile_size));
+    }
+    let canvas = IntRect::new(0, 0, width as i32, height as i32);
+    let area = settings.crop.map_or(canvas, |crop| crop.intersect(&canvas));
+    if area.is_empty() {
+        return Err(RenderError::Crop { width, height });
+    }
+    Ok(area)
+}
+
+fn background(scene: &Scene, settings: &Settings) -> Premul {
+    let color = match settings.background {
+        Background::Scene => scene.background,
+        Background::Transparent => None,
+        Background::Color(color) => Some(color),
+    };
+    color.map_or(Premul::TRANSPARENT, |color| settings.space.import(color))
+}
+
+/// Builds the textures that commands use; the others stay `None`.
+fn surfaces<E>(scene: &Scene, settings: &Settings) -> Result<Vec<Option<Surface>>, RenderError<E>> {
+    let mut used = vec![false; scene.images.len()];
+    for command in &scene.commands {
+        if let Command::Textured(scumble_scene::TexturedTriangle { image: ImageId(i), .. })
+        | Command::Image(scumble_scene::ImageQuad { image: ImageId(i), .. }) = command
+            && let Some(flag) = used.get_mut(*i)
+        {
+            *flag = true;
+        }
+    }
+    let wanted = || scene.images.iter().zip(&used).map(|(image, used)| used.then_some(image));
+    let needed = wanted().flatten().try_fold(0u64, |sum, image| {
+        let options = texture_options(image, settings);
+        let (width, height) = (image.pixels.width(), image.pixels.height());
+        sum.checked_add(Texture::memory_for(width, height, &options)? as u64)
+    });
+    check_limit(needed.unwrap_or(u64::MAX), settings)?;
+    wanted()
+        .enumerate()
+        .map(|(index, image)| {
+            let Some(image) = image else { return Ok(None) };
+            let texture = Texture::new(image.pixels.view(), &texture_options(image, settings))
+                .map_err(|source| RenderError::Texture { index, source })?;
+            let opaque = image.pixels.pixels().iter().all(|texel| texel[3] == 255);
+            Ok(Some(Surface { texture, opaque }))
+        })
+        .collect()
+}
+
+fn texture_options(image: &SceneImage, settings: &Settings) -> TextureOptions {
+    TextureOptions {
+        space: settings.space,
+        wrap: match image.wrap {
+            ImageWrap::Clamp => Wrap::Clamp,
+            ImageWrap::Repeat => Wrap::Repeat,
+            ImageWrap::Mirror => Wrap::Mirror,
+        },
+        levels: match settings.sampler.level {
+            LevelMode::Zero => Levels::BaseOnly,
+            _ => Levels::All,
+        },
+        ..TextureOptions::default()
+    }
+}
+
+fn check_limit<E>(needed: u64, settings: &Settings) -> Result<(), RenderError<E>> {
+    let limit = settings.max_memory;
+    if needed > limit { Err(RenderError::Memory { needed, limit }) } else { Ok(()) }
+}
+
+/// The memory of the whole run, as far as it can be known before the first tile.
+fn check_memory<E>(
+    plan: &Plan,
+    settings: &Settings,
+    grid: &Grid,
+    threads: usize,
+    texture_bytes: usize,
+) -> Result<(), RenderError<E>> {
+    let samples = settings.pattern.len() as u64 + 1;
+    let tile = u64::from(settings.tile_size).pow(2) * samples * size_of::<Premul>() as u64;
+    let tiles = tile.saturating_mul(depth(&plan.layers)).saturating_mul(threads as u64);
+    let rows = schedule::buffered_rows(grid, threads) as u64 * u64::from(grid.area.width()) * 4;
+    let draws = (plan.draws.len() * size_of::<Draw>()) as u64;
+    let needed =
+        [tiles, rows, draws, texture_bytes as u64].into_iter().fold(0u64, u64::saturating_add);
+    check_limit(needed, settings)
+}
+
+/// The most layers that are ever open at once, the canvas among them. A layer stands after its
+/// parent.
+fn depth(layers: &[Layer]) -> u64 {
+    let mut depths = vec![1u64; layers.len()];
+    for (i, layer) in layers.iter().enumerate().skip(1) {
+        depths[i] = depths[layer.parent as usize] + 1;
+    }
+    depths.into_iter().max().unwrap_or(1)
+}

@@ -1,0 +1,187 @@
+//! Which tile when, on which thread, and the way of the rows to the sink.
+
+use crate::bins::{Bins, Grid};
+use crate::tile::{Job, Workspace};
+use crate::{Control, RenderError, Sink};
+use scumble_geometry::IntRect;
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
+
+/// Tiles in flight for each thread: enough that a heavy tile does not leave the others idle.
+const TILES_PER_THREAD: usize = 8;
+
+/// One thread, or several.
+pub(crate) enum Pool {
+    Serial,
+    #[cfg(feature = "parallel")]
+    Parallel(rayon::ThreadPool),
+}
+
+impl Pool {
+    /// A pool of `threads` threads; 0 is one for each processor.
+    pub(crate) fn new(threads: usize) -> Result<Self, String> {
+        #[cfg(feature = "parallel")]
+        if threads != 1 {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .map_err(|error| error.to_string())?;
+            if pool.current_num_threads() > 1 {
+                return Ok(Self::Parallel(pool));
+            }
+        }
+        let _ = threads;
+        Ok(Self::Serial)
+    }
+
+    pub(crate) fn threads(&self) -> usize {
+        match self {
+            Self::Serial => 1,
+            #[cfg(feature = "parallel")]
+            Self::Parallel(pool) => pool.current_num_threads(),
+        }
+    }
+
+    /// Runs a closure so that what it does in parallel runs in this pool.
+    pub(crate) fn install<T: Send>(&self, f: impl FnOnce() -> T + Send) -> T {
+        match self {
+            Self::Serial => f(),
+            #[cfg(feature = "parallel")]
+            Self::Parallel(pool) => pool.install(f),
+        }
+    }
+
+    /// Runs both, side by side if there are threads.
+    fn join<A: Send, B: Send>(
+        &self,
+        a: impl FnOnce() -> A + Send,
+        b: impl FnOnce() -> B + Send,
+    ) -> (A, B) {
+        match self {
+            Self::Serial => (a(), b()),
+            #[cfg(feature = "parallel")]
+            Self::Parallel(pool) => pool.install(|| rayon::join(a, b)),
+        }
+    }
+
+    fn for_each<T: Send>(&self, items: Vec<T>, f: impl Fn(T) + Sync + Send) {
+        match self {
+            Self::Serial => items.into_iter().for_each(f),
+            #[cfg(feature = "parallel")]
+            Self::Parallel(_) => {
+                use rayon::iter::{IntoParallelIterator, ParallelIterator};
+                items.into_par_iter().for_each(f);
+            }
+        }
+    }
+}
+
+/// Bands that are rendered together: at least one, and enough tiles for all threads.
+fn bands_per_group(grid: &Grid, threads: usize) -> usize {
+    if threads <= 1 { 1 } else { (threads * TILES_PER_THREAD).div_ceil(grid.columns()) }
+}
+
+/// Rows held in memory at once: one group being rendered, one being handed over.
+pub(crate) fn buffered_rows(grid: &Grid, threads: usize) -> usize {
+    2 * (bands_per_group(grid, threads) * grid.tile as usize).min(grid.area.height() as usize)
+}
+
+/// Renders all bands and hands them to the sink, which takes one group of bands while the next
+/// is rendered.
+pub(crate) fn run<S: Sink>(
+    job: &Job<'_>,
+    grid: Grid,
+    bins: Bins,
+    pool: &Pool,
+    sink: &mut S,
+    control: &Control<'_>,
+) -> Result<(), RenderError<S::Error>> {
+    let step = bands_per_group(&grid, pool.threads());
+    let mut groups =
+        Groups { job, grid, bins, pool, control, lists: Vec::new(), idle: Mutex::default() };
+    let (mut ready, mut next) = (Vec::new(), Vec::new());
+    let mut ready_rows = 0..0;
+    // One round more than there are groups: the last only hands over.
+    for group in 0..=grid.bands().div_ceil(step) {
+        let band = |group: usize| (group * step).min(grid.bands());
+        let bands = band(group)..band(group + 1);
+        let rows = groups.rows(&bands);
+        let (taken, ()) = pool.join(
+            || if ready_rows.is_empty() { Ok(()) } else { sink.rows(ready_rows.start, &ready) },
+            || groups.render(bands, &mut next),
+        );
+        taken.map_err(RenderError::Sink)?;
+        if control.is_cancelled() {
+            return Err(RenderError::Cancelled);
+        }
+        if !ready_rows.is_empty() {
+            control.report(ready_rows.end, grid.area.height());
+        }
+        std::mem::swap(&mut ready, &mut next);
+        ready_rows = rows;
+    }
+    Ok(())
+}
+
+struct Groups<'a> {
+    job: &'a Job<'a>,
+    grid: Grid,
+    bins: Bins,
+    pool: &'a Pool,
+    control: &'a Control<'a>,
+    /// For each tile of the group, what touches it.
+    lists: Vec<Vec<u32>>,
+    /// Workspaces that no thread is using.
+    idle: Mutex<Vec<Workspace>>,
+}
+
+/// A tile to be rendered, with its pieces of the group's rows.
+struct TileTask<'a> {
+    rect: IntRect,
+    list: &'a [u32],
+    rows: Vec<&'a mut [[u8; 4]]>,
+}
+
+impl Groups<'_> {
+    /// The rows of some bands, counted from the top of the picture.
+    fn rows(&self, bands: &Range<usize>) -> Range<u32> {
+        let end = |band: usize| (band as u32 * self.grid.tile).min(self.grid.area.height());
+        end(bands.start)..end(bands.end)
+    }
+
+    fn render(&mut self, bands: Range<usize>, buffer: &mut Vec<[u8; 4]>) {
+        let (columns, grid) = (self.grid.columns(), self.grid);
+        let width = grid.area.width() as usize;
+        buffer.resize(self.rows(&bands).len() * width, [0; 4]);
+        self.lists.resize_with(bands.len() * columns, Vec::new);
+        let mut tasks = Vec::with_capacity(self.lists.len());
+        let strips = buffer.chunks_mut(width * grid.tile as usize);
+        for ((band, strip), lists) in bands.zip(strips).zip(self.lists.chunks_mut(columns)) {
+            self.bins.fill(band, &self.job.plan.draws, lists);
+            let first = tasks.len();
+            tasks.extend(lists.iter().enumerate().map(|(column, list)| TileTask {
+                rect: grid.tile_rect(column, band),
+                list,
+                rows: Vec::with_capacity(grid.tile as usize),
+            }));
+            for row in strip.chunks_mut(width) {
+                for (task, piece) in
+                    tasks[first..].iter_mut().zip(row.chunks_mut(grid.tile as usize))
+                {
+                    task.rows.push(piece);
+                }
+            }
+        }
+        let (job, control, idle) = (self.job, self.control, &self.idle);
+        self.pool.for_each(tasks, |mut task| {
+            if control.is_cancelled() {
+                return;
+            }
+            // A poisoned lock means that another tile panicked; its workspace is gone, not ours.
+            let lock = || idle.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut work = lock().pop().unwrap_or_default();
+            job.tile(&mut work, task.rect, task.list, &mut task.rows);
+            lock().push(work);
+        });
+    }
+}

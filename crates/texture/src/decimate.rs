@@ -1,0 +1,197 @@
+//! From one level to the next: separable, exact for every size.
+
+use crate::level::Level;
+use crate::math::{bessel_i0, sinc};
+use crate::{Decimation, TextureError, Wrap};
+use alloc::{vec, vec::Vec};
+
+/// β of the Kaiser window.
+const KAISER_BETA: f64 = 4.0;
+
+/// The filter along one axis: for every output texel, which input texels with which weights.
+///
+/// Even sizes need one set of weights; others one for each output texel.
+#[derive(Debug)]
+pub(crate) struct Taps {
+    /// Output texels.
+    pub(crate) outputs: usize,
+    /// Taps for each output.
+    count: usize,
+    /// Input texel of every tap of every output, already wrapped.
+    indices: Vec<u32>,
+    /// Weight of every tap of every output.
+    weights: Vec<f32>,
+}
+
+impl Taps {
+    /// The filter from `n` texels to max(1, ⌊n/2⌋).
+    pub(crate) fn new(n: usize, filter: Decimation, wrap: Wrap) -> Self {
+        let outputs = (n / 2).max(1);
+        let ratio = n as f64 / outputs as f64;
+        if n == 1 {
+            return Self { outputs, count: 1, indices: vec![0], weights: vec![1.0] };
+        }
+        let reach = match filter {
+            Decimation::Kaiser => 2.0 * ratio,
+            Decimation::Box => 0.5 * ratio,
+        };
+        let even = n.is_multiple_of(2);
+        // An odd size shifts the grid under the filter: one tap more catches every shift.
+        let count = if even { (2.0 * reach) as usize } else { (2.0 * reach) as usize + 2 };
+        // Beyond the edge the pyramid mirrors the image unless it repeats: only so is its mean kept.
+        let fold = if matches!(wrap, Wrap::Repeat) { Wrap::Repeat } else { Wrap::Mirror };
+        let share = 1.0 / ratio;
+        let mut firsts = Vec::with_capacity(outputs);
+        let mut weights = Vec::with_capacity(outputs * count);
+        for i in 0..outputs {
+            let centre = (i as f64 + 0.5) * ratio;
+            let first = crate::math::floor(centre - reach + if even { 0.5 } else { 0.0 }) as i64;
+            firsts.push(first);
+            weights.extend((first..first + count as i64).map(|j| match filter {
+                Decimation::Kaiser => share * partition((j as f64 + 0.5 - centre) * 2.0 * share),
+                Decimation::Box => share * overlap(j as f64, centre - reach, centre + reach),
+            }));
+        }
+        if filter == Decimation::Kaiser {
+            balance(&mut weights, &firsts, count, ratio);
+        }
+        let taps = firsts.iter().flat_map(|first| *first..*first + count as i64);
+        Self {
+            outputs,
+            count,
+            indices: taps.map(|j| fold.resolve(j, n).unwrap_or(0) as u32).collect(),
+            weights: weights.iter().map(|w| *w as f32).collect(),
+        }
+    }
+
+    /// Σ wᵢ·tᵢ over the taps of output `i`, as the middle texel plus the weighted differences from
+    /// it, so that equal texels give themselves to the last bit.
+    fn apply(&self, i: usize, texel: impl Fn(usize) -> [f32; 4]) -> [f32; 4] {
+        let taps = i * self.count..(i + 1) * self.count;
+        let indices = &self.indices[taps.clone()];
+        let middle = texel(indices[self.count / 2] as usize);
+        let mut sum = [0.0f32; 4];
+        for (j, w) in indices.iter().zip(&self.weights[taps]) {
+            let t = texel(*j as usize);
+            for c in 0..4 {
+                sum[c] += w * (t[c] - middle[c]);
+            }
+        }
+        core::array::from_fn(|c| middle[c] + sum[c])
+    }
+}
+
+/// The half-band kernel at distance `d` in texels of an even-sized level: sinc(d/2) under the
+/// window I₀(β√(1 − (d/4)²)). At ½, 1½, 2½, 3½ and normalised: 0.43850, 0.11692, −0.04300, −0.01242.
+fn kaiser(d: f64) -> f64 {
+    let t = d / 4.0;
+    if t * t >= 1.0 {
+        return 0.0;
+    }
+    let window = bessel_i0(0.25 * KAISER_BETA * KAISER_BETA * (1.0 - t * t));
+    sinc(core::f64::consts::PI * 0.5 * d) * window
+}
+
+/// The kernel divided by the sum of its copies at every second place: a partition of unity, so that
+/// the outputs share each input evenly whatever its phase. At the half-band's own taps the sum is the
+/// same, and nothing changes.
+fn partition(d: f64) -> f64 {
+    let copies: f64 = (-4..=4).map(|k| kaiser(d + 2.0 * f64::from(k))).sum();
+    kaiser(d) / copies
+}
+
+/// How much of texel `j` lies in [from, to).
+fn overlap(j: f64, from: f64, to: f64) -> f64 {
+    (to.min(j + 1.0) - from.max(j)).max(0.0)
+}
+
+/// Makes the weights of every output sum to 1 without changing what any input gives in all, so that
+/// constants and the mean of the level are both kept: what an output lacks it takes from the next one,
+/// at the two texels beside their common edge. The amounts are below two thousandths; areas need none.
+fn balance(weights: &mut [f64], firsts: &[i64], count: usize, ratio: f64) {
+    for i in 0..firsts.len() {
+        let taps = &mut weights[i * count..(i + 1) * count];
+        let lack = 1.0 - taps.iter().sum::<f64>();
+        if i + 1 == firsts.len() {
+            // All that is left is rounding.
+            taps[count / 2] += lack;
+            return;
+        }
+        let edge = (i + 1) as f64 * ratio - 0.5;
+        let texel = crate::math::floor(edge);
+        let fraction = edge - texel;
+        for (j, part) in [(texel as i64, 1.0 - fraction), (texel as i64 + 1, fraction)] {
+            weights[i * count + (j - firsts[i]) as usize] += lack * part;
+            weights[(i + 1) * count + (j - firsts[i + 1]) as usize] -= lack * part;
+        }
+    }
+}
+
+/// The next coarser level.
+pub(crate) fn halve(from: &Level, filter: Decimation, wrap: Wrap) -> Result<Level, TextureError> {
+    let columns = Taps::new(from.width, filter, wrap);
+    let rows = Taps::new(from.height, filter, wrap);
+    let mut to = Level::new(columns.outputs, rows.outputs)?;
+    let mut tall = Level::new(from.width, 1)?;
+    for (y, out) in to.texels.chunks_exact_mut(columns.outputs).enumerate() {
+        for (x, t) in tall.texels.iter_mut().enumerate() {
+            *t = rows.apply(y, |j| from.texels[j * from.width + x]);
+        }
+        for (x, t) in out.iter_mut().enumerate() {
+            *t = columns.apply(x, |j| tall.texels[j]);
+        }
+    }
+    Ok(to)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_kaiser_taps_are_the_published_ones() {
+        let taps = Taps::new(16, Decimation::Kaiser, Wrap::Repeat);
+        assert_eq!((taps.outputs, taps.count), (8, 8));
+        let half = [0.43850, 0.11692, -0.04300, -0.01242];
+        for (k, tap) in half.iter().enumerate() {
+            assert!((taps.weights[3 - k] - tap).abs() < 1e-5);
+            assert!((taps.weights[4 + k] - tap).abs() < 1e-5);
+        }
+        // Output 3 covers texels 6 and 7.
+        assert_eq!(taps.indices[24..32], [3, 4, 5, 6, 7, 8, 9, 10]);
+    }
+
+    #[test]
+    fn box_taps_are_areas() {
+        let taps = Taps::new(5, Decimation::Box, Wrap::Clamp);
+        let mut dense = [[0.0f32; 5]; 2];
+        for (k, (j, w)) in taps.indices.iter().zip(&taps.weights).enumerate() {
+            dense[k / taps.count][*j as usize] += w;
+        }
+        let near = |a: [f32; 5], b: [f32; 5]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);
+        assert!(near(dense[0], [0.4, 0.4, 0.2, 0.0, 0.0]));
+        assert!(near(dense[1], [0.0, 0.0, 0.2, 0.4, 0.4]));
+    }
+
+    #[test]
+    fn every_size_keeps_the_mean_and_sums_to_one() {
+        for wrap in [Wrap::Clamp, Wrap::Repeat] {
+            for filter in [Decimation::Kaiser, Decimation::Box] {
+                for n in (1..70).chain([255, 257, 1021, 1023]) {
+                    let taps = Taps::new(n, filter, wrap);
+                    let mut totals = vec![0.0f64; n];
+                    for (w, j) in taps.weights.iter().zip(&taps.indices) {
+                        totals[*j as usize] += f64::from(*w);
+                    }
+                    let share = taps.outputs as f64 / n as f64;
+                    let worst = totals.iter().map(|t| (t - share).abs()).fold(0.0, f64::max);
+                    assert!(worst < 1e-6, "{n} {filter:?} {wrap:?}: {worst}");
+                    for w in taps.weights.chunks(taps.count) {
+                        let sum: f64 = w.iter().map(|w| f64::from(*w)).sum();
+                        assert!((sum - 1.0).abs() < 1e-6, "{n} {filter:?} {wrap:?} {sum}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,22 @@
+/// Why a texture cannot be made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TextureError {
+    /// The image has no pixel.
+    #[error("the image is empty")]
+    Empty,
+    /// The texels do not fit the address space.
+    #[error("a texture of {width} by {height} texels is too large")]
+    TooLarge {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// The allocator refused the memory.
+    #[error("no memory for {bytes} bytes of texels")]
+    OutOfMemory {
+        /// Bytes asked for.
+        bytes: usize,
+    },
+}

@@ -1,0 +1,70 @@
+/// The largest argument of [`gaussian`]: a cut at 4σ.
+#[cfg(test)]
+pub(crate) const DOMAIN: f32 = 8.0;
+
+/// e^(−x) for x in [0, 8], relative error below 1e−5, in eight multiplications and five additions.
+///
+/// e^(−x) = (e^(−x/8))⁸ and the inner one, on [0, 1], is the polynomial through the six Chebyshev
+/// nodes of that interval (a test rebuilds it).
+#[inline(always)]
+pub(crate) fn gaussian(x: f32) -> f32 {
+    let p = C[0] + x * (C[1] + x * (C[2] + x * (C[3] + x * (C[4] + x * C[5]))));
+    let p2 = p * p;
+    let p4 = p2 * p2;
+    p4 * p4
+}
+
+/// Coefficients of xᵏ, the eighths included.
+const C: [f32; 6] = [
+    0.999_999_6,
+    -0.124_995_984,
+    0.007_806_576_3,
+    -0.000_322_290_46,
+    9.360_088e-6,
+    -1.556_313_4e-7,
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Interpolates e^(−y) at the Chebyshev nodes of [0, 1] and rescales to x = 8y.
+    fn fit() -> [f64; 6] {
+        let nodes: [f64; 6] = core::array::from_fn(|k| {
+            0.5 - 0.5 * ((2 * k + 1) as f64 * core::f64::consts::PI / 12.0).cos()
+        });
+        // Newton's divided differences, then expanded.
+        let mut d = nodes.map(|y| (-y).exp());
+        for order in 1..6 {
+            for k in (order..6).rev() {
+                d[k] = (d[k] - d[k - 1]) / (nodes[k] - nodes[k - order]);
+            }
+        }
+        let mut c = [0.0; 6];
+        for k in (0..6).rev() {
+            for j in (1..6).rev() {
+                c[j] = c[j - 1] - nodes[k] * c[j];
+            }
+            c[0] = d[k] - nodes[k] * c[0];
+        }
+        core::array::from_fn(|k| c[k] / 8f64.powi(k as i32))
+    }
+
+    #[test]
+    fn the_table_is_the_fit() {
+        let fit = fit();
+        for (c, f) in C.iter().zip(fit) {
+            assert!((f64::from(*c) / f - 1.0).abs() < 1e-6, "{fit:?}");
+        }
+    }
+
+    #[test]
+    fn the_error_is_as_stated() {
+        let steps = 60_000u16;
+        for i in 0..=steps {
+            let x = DOMAIN * f32::from(i) / f32::from(steps);
+            let truth = (-f64::from(x)).exp();
+            assert!((f64::from(gaussian(x)) / truth - 1.0).abs() < 1e-5, "{x}");
+        }
+    }
+}

@@ -1,0 +1,55 @@
+use crate::Wrap;
+use scumble_pixel::WorkingSpace;
+
+/// The filter that makes each level of a pyramid from the finer one.
+///
+/// Both keep the mean of the image. On sizes that are not even the filter is stretched to the exact
+/// ratio of the two sizes and every output texel gets taps of its own (a polyphase filter); no row
+/// is dropped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Decimation {
+    /// An 8-tap half-band sinc under a Kaiser window, β = 4: sharp, with little aliasing.
+    #[default]
+    Kaiser,
+    /// The mean of the texels that an output texel covers: 2×2 on even sizes. Cheaper, softer and
+    /// more aliased.
+    Box,
+}
+
+impl Decimation {
+    /// The variance that one step adds, in squared texels of the finer level: what the elliptical
+    /// filter subtracts from its own.
+    ///
+    /// For the box it is the second moment of its taps, ¼. For Kaiser the second moment is −0.096,
+    /// which says only how the filter bends at zero frequency; over the pass band it acts as a
+    /// filter of no width, and 0 measures best.
+    pub(crate) fn variance(self) -> f64 {
+        match self {
+            Self::Kaiser => 0.0,
+            Self::Box => 0.25,
+        }
+    }
+}
+
+/// Which levels of the pyramid are built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Levels {
+    /// All, down to 1×1: a third more memory than the base.
+    #[default]
+    All,
+    /// The image alone. Minification then costs texels and is bounded by a budget.
+    BaseOnly,
+}
+
+/// How a texture is made of an image.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TextureOptions {
+    /// The space in which texels are averaged, in the pyramid and by every filter.
+    pub space: WorkingSpace,
+    /// What lies beyond the edge.
+    pub wrap: Wrap,
+    /// The filter between levels.
+    pub decimation: Decimation,
+    /// The levels to build.
+    pub levels: Levels,
+}

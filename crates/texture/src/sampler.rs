@@ -1,0 +1,93 @@
+/// How texels of one level make a colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum PixelFilter {
+    /// The texel that the centre lies in.
+    Nearest,
+    /// The four nearest texels, weighted by nearness. With [`LevelMode::Linear`] it is trilinear.
+    Bilinear,
+    /// The elliptical weighted average: a Gaussian pixel projected into the texture.
+    #[default]
+    Ewa,
+}
+
+/// Which levels of the pyramid are read.
+///
+/// Apart from [`LevelMode::Auto`] with the elliptical filter, the level comes from
+/// D = log₂ max(‖∂P/∂x‖, ‖∂P/∂y‖), P in texels of level 0, clamped to the levels that there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum LevelMode {
+    /// The best that the filter can do: nearest takes the nearest level, bilinear blends two, and
+    /// the elliptical filter takes the level that leaves its minor axis
+    /// [`Sampler::least_sigma`] texels, blending only just before a switch.
+    #[default]
+    Auto,
+    /// Level 0, whatever the footprint.
+    Zero,
+    /// Level round(D).
+    Nearest,
+    /// Levels ⌊D⌋ and ⌊D⌋ + 1, blended by the fraction of D.
+    Linear,
+}
+
+/// How to sample a texture. The default is [`Sampler::DEFAULT`].
+///
+/// A radius or σ here is never a variance or a diameter: σ is the standard deviation along one axis
+/// of the ellipse, and a kernel is cut at `radius`·σ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sampler {
+    /// How texels of one level make a colour.
+    pub pixel: PixelFilter,
+    /// Which levels are read.
+    pub level: LevelMode,
+    /// The largest ratio of the ellipse's axes; beyond it the *minor* axis is widened, which blurs
+    /// but never aliases. In 1…1024; what lies outside is clamped. Elliptical filter only.
+    ///
+    /// (The literature's word: it is the axis ratio, not the eccentricity of a conic.)
+    pub max_eccentricity: f32,
+    /// Where the Gaussian is cut, in σ. In 2…4; what lies outside is clamped. Texels read grow as
+    /// its square; below 3 the cut shows as a slight ringing in fine texture.
+    pub radius: f32,
+    /// The least σ of the minor axis, in texels of the level that is read ([`LevelMode::Auto`]);
+    /// in 0.4…4. Texels read grow as its square; accuracy too.
+    pub least_sigma: f32,
+    /// Whether [`LevelMode::Auto`] blends two levels in the last part of an octave, so that a
+    /// switch of level does not show as a line. Costs 8–10 % more texels.
+    pub blend: bool,
+}
+
+impl Sampler {
+    /// For previews and video: about half the texels of the default.
+    pub const FAST: Self = Self {
+        pixel: PixelFilter::Ewa,
+        level: LevelMode::Auto,
+        max_eccentricity: 16.0,
+        radius: 2.5,
+        least_sigma: 0.5,
+        blend: false,
+    };
+    /// For everything.
+    pub const DEFAULT: Self =
+        Self { max_eccentricity: 32.0, radius: 3.08, least_sigma: 0.6, blend: true, ..Self::FAST };
+    /// For print and masters.
+    pub const HIGH: Self = Self { max_eccentricity: 64.0, least_sigma: 0.8, ..Self::DEFAULT };
+    /// Truth for tests: ten times the texels.
+    pub const REFERENCE: Self = Self {
+        max_eccentricity: 1024.0,
+        radius: 4.0,
+        least_sigma: 1.5,
+        blend: false,
+        ..Self::DEFAULT
+    };
+
+    /// This sampler with another filter and level mode.
+    #[must_use]
+    pub const fn with(self, pixel: PixelFilter, level: LevelMode) -> Self {
+        Self { pixel, level, ..self }
+    }
+}
+
+impl Default for Sampler {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}

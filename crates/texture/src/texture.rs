@@ -1,0 +1,246 @@
+use crate::decimate::halve;
+use crate::ewa::{self, Limits, Plan};
+use crate::level::Level;
+use crate::point::{bilinear, lerp, nearest};
+use crate::srgb::decode_table;
+use crate::{
+    Decimation, Footprint, LevelMode, Levels, PixelFilter, Sampler, TextureError, TextureOptions,
+    Wrap, lod,
+};
+use alloc::vec::Vec;
+use scumble_geometry::{DVec2, Homography};
+use scumble_pixel::{ImageView, Premul, WorkingSpace};
+
+/// An image made ready to be filtered: its pyramid, premultiplied, in the working space.
+///
+/// Texels take 16 bytes each (four `f32`), and all levels together a third more than the base:
+/// [`Texture::memory_for`] says it before anything is allocated.
+#[derive(Debug, Clone)]
+pub struct Texture {
+    pub(crate) levels: Vec<Level>,
+    pub(crate) wrap: Wrap,
+    pub(crate) decimation: Decimation,
+    space: WorkingSpace,
+    average: [f32; 4],
+}
+
+impl Texture {
+    /// A texture from straight-alpha, sRGB-encoded RGBA8.
+    ///
+    /// # Errors
+    /// [`TextureError::Empty`] for an image without a pixel; [`TextureError::TooLarge`] and
+    /// [`TextureError::OutOfMemory`] if the texels do not fit.
+    pub fn new(
+        image: ImageView<'_, [u8; 4]>,
+        options: &TextureOptions,
+    ) -> Result<Self, TextureError> {
+        let (width, height) = (image.width(), image.height());
+        if width == 0 || height == 0 {
+            return Err(TextureError::Empty);
+        }
+        if Self::memory_for(width, height, options).is_none() {
+            return Err(TextureError::TooLarge { width, height });
+        }
+        let mut levels = Vec::with_capacity(count(width, height, options.levels));
+        let base = decode(image, options.space)?;
+        let mut average = mean(&base);
+        levels.push(base);
+        while let Some(last) = levels.last()
+            && levels.len() < count(width, height, options.levels)
+        {
+            levels.push(halve(last, options.decimation, options.wrap)?);
+        }
+        if let [.., Level { width: 1, height: 1, texels }] = &levels[..] {
+            average = texels[0];
+        }
+        let TextureOptions { space, wrap, decimation, .. } = *options;
+        Ok(Self { levels, wrap, decimation, space, average })
+    }
+
+    /// Columns of level 0.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.levels[0].width
+    }
+
+    /// Rows of level 0.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.levels[0].height
+    }
+
+    /// The space that the texels are in, and the samples.
+    #[must_use]
+    pub fn space(&self) -> WorkingSpace {
+        self.space
+    }
+
+    /// Levels, the image itself included; at least 1.
+    #[must_use]
+    pub fn level_count(&self) -> usize {
+        self.levels.len()
+    }
+
+    /// The texels of a level, premultiplied RGBA in the working space; `None` beyond the last.
+    ///
+    /// Level l is ⌊width/2ˡ⌋ × ⌊height/2ˡ⌋ and at least 1×1. Kaiser levels may overshoot 0…1 by a
+    /// few hundredths at sharp edges, as any sharp filter does; samples never do.
+    #[must_use]
+    pub fn level(&self, index: usize) -> Option<ImageView<'_, [f32; 4]>> {
+        let level = self.levels.get(index)?;
+        ImageView::new(level.width, level.height, level.width, &level.texels).ok()
+    }
+
+    /// Bytes of texels that this texture holds.
+    #[must_use]
+    pub fn memory(&self) -> usize {
+        self.levels.iter().map(|l| size_of_val(&l.texels[..])).sum()
+    }
+
+    /// Bytes of texels that a texture of this size will hold; `None` if that overflows.
+    #[must_use]
+    pub fn memory_for(width: usize, height: usize, options: &TextureOptions) -> Option<usize> {
+        let mut bytes = 0usize;
+        for l in 0..count(width, height, options.levels) {
+            let texels = (width >> l).max(1).checked_mul((height >> l).max(1))?;
+            bytes = bytes.checked_add(texels.checked_mul(size_of::<[f32; 4]>())?)?;
+        }
+        isize::try_from(bytes).ok().map(isize::unsigned_abs)
+    }
+
+    /// The colour of a footprint: premultiplied, in the working space, each channel in 0…alpha and
+    /// alpha in 0…1.
+    ///
+    /// Finite for every footprint. A centre that is not finite gives the mean of the texture; so
+    /// does a Jacobian that is not, or that has a component beyond 2⁴⁰, where the filter needs it.
+    #[must_use]
+    pub fn sample(&self, f: &Footprint, s: &Sampler) -> Premul {
+        self.sample_prepared(f, s, &Limits::new(s))
+    }
+
+    /// The colours of a run of pixels: `out[i]` is what [`Texture::sample`] gives for
+    /// [`Footprint::at`]`(map, start + (i, 0))`, to the last bit.
+    ///
+    /// `map` goes from the screen to texels of level 0. The Jacobian is exact at each sample.
+    pub fn sample_row(&self, map: &Homography, start: DVec2, s: &Sampler, out: &mut [Premul]) {
+        let limits = Limits::new(s);
+        for (i, out) in out.iter_mut().enumerate() {
+            let f = Footprint::at(map, DVec2::new(start.x + i as f64, start.y));
+            *out = self.sample_prepared(&f, s, &limits);
+        }
+    }
+
+    /// How many texels [`Texture::sample`] reads for a footprint, those of weight 0 included.
+    #[must_use]
+    pub fn cost(&self, f: &Footprint, s: &Sampler) -> usize {
+        let Some(f) = self.reduce(f) else {
+            return 0;
+        };
+        let each = match s.pixel {
+            PixelFilter::Nearest => 1,
+            PixelFilter::Bilinear => 4,
+            PixelFilter::Ewa if !ewa::is_usable(&f.jacobian) => return 0,
+            PixelFilter::Ewa => return Plan::new(self, &f, s.level, &Limits::new(s)).texels(),
+        };
+        let two = lod::pick(&f, point_mode(s), self.levels.len()).coarser > 0.0;
+        if two { 2 * each } else { each }
+    }
+
+    fn sample_prepared(&self, f: &Footprint, s: &Sampler, limits: &Limits) -> Premul {
+        let Some(f) = self.reduce(f) else {
+            return into_range(self.average);
+        };
+        into_range(match s.pixel {
+            PixelFilter::Nearest => {
+                self.blend_levels(&f, s, |l, u, v| nearest(&self.levels[l], self.wrap, u, v))
+            }
+            PixelFilter::Bilinear => {
+                self.blend_levels(&f, s, |l, u, v| bilinear(&self.levels[l], self.wrap, u, v))
+            }
+            PixelFilter::Ewa if !ewa::is_usable(&f.jacobian) => self.average,
+            PixelFilter::Ewa => Plan::new(self, &f, s.level, limits).run(self),
+        })
+    }
+
+    /// The footprint with its centre brought near; `None` if it is not finite.
+    #[inline]
+    fn reduce(&self, f: &Footprint) -> Option<Footprint> {
+        let u = self.wrap.reduce(f.u, self.width())?;
+        let v = self.wrap.reduce(f.v, self.height())?;
+        Some(Footprint { u, v, jacobian: f.jacobian })
+    }
+
+    /// One level, or two of them blended; `filter` gets the level and the centre in its texels.
+    fn blend_levels(
+        &self,
+        f: &Footprint,
+        s: &Sampler,
+        filter: impl Fn(usize, f64, f64) -> [f32; 4],
+    ) -> [f32; 4] {
+        let pick = lod::pick(f, point_mode(s), self.levels.len());
+        let at = |level: usize| {
+            let [su, sv] = self.scale(level);
+            filter(level, f.u * su, f.v * sv)
+        };
+        let fine = at(pick.level);
+        if pick.coarser > 0.0 { lerp(fine, at(pick.level + 1), pick.coarser) } else { fine }
+    }
+
+    /// From texels of level 0 to texels of a level, per axis. Not 2^−l where a size was odd.
+    #[inline]
+    pub(crate) fn scale(&self, level: usize) -> [f64; 2] {
+        let (to, from) = (&self.levels[level], &self.levels[0]);
+        [to.width as f64 / from.width as f64, to.height as f64 / from.height as f64]
+    }
+}
+
+/// The level mode of nearest and bilinear, which have a best of their own.
+fn point_mode(s: &Sampler) -> LevelMode {
+    match (s.level, s.pixel) {
+        (LevelMode::Auto, PixelFilter::Nearest) => LevelMode::Nearest,
+        (LevelMode::Auto, _) => LevelMode::Linear,
+        (mode, _) => mode,
+    }
+}
+
+/// Levels of a pyramid over an image of this size.
+fn count(width: usize, height: usize, levels: Levels) -> usize {
+    match levels {
+        Levels::All => width.max(height).checked_ilog2().map_or(0, |l| l as usize + 1),
+        Levels::BaseOnly => 1,
+    }
+}
+
+/// Level 0: bytes to the working space, alpha multiplied in.
+fn decode(image: ImageView<'_, [u8; 4]>, space: WorkingSpace) -> Result<Level, TextureError> {
+    let table = decode_table(space);
+    let mut base = Level::new(image.width(), image.height())?;
+    for (y, out) in base.texels.chunks_exact_mut(image.width()).enumerate() {
+        for (t, &[r, g, b, a]) in out.iter_mut().zip(image.row(y)) {
+            let alpha = f32::from(a) / 255.0;
+            let [r, g, b] = [r, g, b].map(|v| table[usize::from(v)] * alpha);
+            *t = [r, g, b, alpha];
+        }
+    }
+    Ok(base)
+}
+
+/// The mean texel; equal texels give themselves.
+fn mean(level: &Level) -> [f32; 4] {
+    let first = level.texels[0];
+    let mut sum = [0.0f64; 4];
+    for t in &level.texels {
+        for c in 0..4 {
+            sum[c] += f64::from(t[c] - first[c]);
+        }
+    }
+    let n = level.texels.len() as f64;
+    core::array::from_fn(|c| first[c] + (sum[c] / n) as f32)
+}
+
+/// Takes off what a sharp pyramid overshoots: alpha to 0…1, colour to 0…alpha.
+#[inline(always)]
+fn into_range([r, g, b, a]: [f32; 4]) -> Premul {
+    let a = a.clamp(0.0, 1.0);
+    Premul([r.clamp(0.0, a), g.clamp(0.0, a), b.clamp(0.0, a), a])
+}

@@ -1,0 +1,94 @@
+use scumble_pixel::Premul;
+
+/// What lies beyond the edge of a texture.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Wrap {
+    /// The texel at the edge, for ever.
+    #[default]
+    Clamp,
+    /// The texture again: tiles.
+    Repeat,
+    /// The texture mirrored, then again: tiles whose edges meet.
+    Mirror,
+    /// One colour, in the working space.
+    Constant(Premul),
+}
+
+/// Positions farther out than this many texels are brought back to it (clamp and constant), and a
+/// Jacobian with a larger component counts as infinite. Far beyond any texture, and still exact to
+/// a few thousandths of a texel in `f64`.
+pub(crate) const FAR: f64 = 1_099_511_627_776.0;
+
+impl Wrap {
+    /// The texel that stands at index `i` of an axis with `n` texels; `None` for the constant.
+    #[inline]
+    pub(crate) fn resolve(self, i: i64, n: usize) -> Option<usize> {
+        let size = n as i64;
+        if (0..size).contains(&i) {
+            return Some(i as usize);
+        }
+        match self {
+            Self::Clamp => Some(i.clamp(0, size - 1) as usize),
+            Self::Repeat => Some(i.rem_euclid(size) as usize),
+            Self::Mirror => {
+                let k = i.rem_euclid(2 * size);
+                Some(k.min(2 * size - 1 - k) as usize)
+            }
+            Self::Constant(_) => None,
+        }
+    }
+
+    /// The same place on an axis of `n` texels, brought so near that an index fits an `i64`.
+    /// `None` for NaN and infinities.
+    #[inline]
+    pub(crate) fn reduce(self, u: f64, n: usize) -> Option<f64> {
+        if !u.is_finite() {
+            return None;
+        }
+        let n = n as f64;
+        let period = match self {
+            Self::Clamp | Self::Constant(_) => return Some(u.clamp(-FAR, FAR)),
+            Self::Repeat => n,
+            Self::Mirror => 2.0 * n,
+        };
+        Some((u - period * crate::math::floor(u / period)).clamp(0.0, period))
+    }
+
+    /// The colour outside, for the wrap that has one.
+    pub(crate) fn border(self) -> [f32; 4] {
+        match self {
+            Self::Constant(c) => c.0,
+            _ => [0.0; 4],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_wrap_on_three_texels() {
+        let row = |w: Wrap| -> Vec<Option<usize>> { (-5..8).map(|i| w.resolve(i, 3)).collect() };
+        let some = |v: [usize; 13]| v.map(Some).to_vec();
+        assert_eq!(row(Wrap::Clamp), some([0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 2, 2]));
+        assert_eq!(row(Wrap::Repeat), some([1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1]));
+        assert_eq!(row(Wrap::Mirror), some([1, 2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0, 1]));
+        let outside = row(Wrap::Constant(Premul::TRANSPARENT));
+        assert_eq!(outside.iter().flatten().count(), 3);
+    }
+
+    #[test]
+    fn far_positions_come_near_and_near_ones_stay() {
+        for wrap in [Wrap::Clamp, Wrap::Repeat, Wrap::Mirror] {
+            assert_eq!(wrap.reduce(1.25, 3), Some(1.25));
+            assert_eq!(wrap.reduce(f64::NAN, 3), None);
+            assert_eq!(wrap.reduce(f64::INFINITY, 3), None);
+            for far in [1e18, -1e18, 1e300, -1e300] {
+                assert!(wrap.reduce(far, 3).is_some_and(|u| u.abs() <= FAR));
+            }
+        }
+        assert_eq!(Wrap::Repeat.reduce(-0.75, 3), Some(2.25));
+        assert_eq!(Wrap::Mirror.reduce(-0.75, 3), Some(5.25));
+    }
+}

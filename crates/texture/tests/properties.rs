@@ -1,0 +1,132 @@
+//! What holds for every texture, footprint and sampler.
+#![allow(clippy::unwrap_used, reason = "a test helper may fail its test")]
+
+mod common;
+
+use common::{constant, ground, noise};
+use proptest::prelude::*;
+use scumble_geometry::{DVec2, Homography, Matrix2};
+use scumble_pixel::{Premul, WorkingSpace};
+use scumble_texture::{
+    Decimation, Footprint, LevelMode, Levels, PixelFilter, Sampler, Texture, TextureOptions, Wrap,
+};
+
+fn wraps() -> impl Strategy<Value = Wrap> {
+    prop_oneof![
+        Just(Wrap::Clamp),
+        Just(Wrap::Repeat),
+        Just(Wrap::Mirror),
+        Just(Wrap::Constant(Premul([0.1, 0.2, 0.3, 0.5]))),
+    ]
+}
+
+fn options() -> impl Strategy<Value = TextureOptions> {
+    let space = prop_oneof![Just(WorkingSpace::Srgb), Just(WorkingSpace::Linear)];
+    let decimation = prop_oneof![Just(Decimation::Kaiser), Just(Decimation::Box)];
+    let levels = prop_oneof![4 => Just(Levels::All), 1 => Just(Levels::BaseOnly)];
+    (space, wraps(), decimation, levels).prop_map(|(space, wrap, decimation, levels)| {
+        TextureOptions { space, wrap, decimation, levels }
+    })
+}
+
+fn samplers() -> impl Strategy<Value = Sampler> {
+    let pixel = prop_oneof![1 => Just(PixelFilter::Nearest), 1 => Just(PixelFilter::Bilinear), 3 => Just(PixelFilter::Ewa)];
+    let level = prop_oneof![
+        1 => Just(LevelMode::Zero),
+        1 => Just(LevelMode::Nearest),
+        1 => Just(LevelMode::Linear),
+        3 => Just(LevelMode::Auto)
+    ];
+    let preset = prop_oneof![Just(Sampler::FAST), Just(Sampler::DEFAULT), Just(Sampler::HIGH)];
+    (pixel, level, preset).prop_map(|(pixel, level, preset)| preset.with(pixel, level))
+}
+
+/// Numbers of every size, and those that are none.
+fn component() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        6 => -40.0..40.0f64,
+        2 => -1e7..1e7f64,
+        1 => prop::num::f64::ANY,
+        1 => Just(0.0),
+    ]
+}
+
+fn footprints() -> impl Strategy<Value = Footprint> {
+    (component(), component(), [component(), component(), component(), component()])
+        .prop_map(|(u, v, [a, b, c, d])| Footprint { u, v, jacobian: Matrix2::new(a, b, c, d) })
+}
+
+fn texture(width: usize, height: usize, seed: u64, options: &TextureOptions) -> Texture {
+    Texture::new(noise(width, height, seed).view(), options).unwrap()
+}
+
+proptest! {
+    #[test]
+    fn samples_are_finite_in_range_and_bounded(
+        width in 1usize..40, height in 1usize..40, seed: u64,
+        options in options(), sampler in samplers(), f in footprints(),
+    ) {
+        let t = texture(width, height, seed, &options);
+        let Premul([r, g, b, a]) = t.sample(&f, &sampler);
+        prop_assert!((0.0..=1.0).contains(&a));
+        prop_assert!([r, g, b].iter().all(|v| (0.0..=a).contains(v)));
+        // Twice the budget for rows in whole groups and two levels, and the edges of small ones.
+        prop_assert!(t.cost(&f, &sampler) <= 4 * 16_384);
+    }
+
+    #[test]
+    fn a_constant_stays_constant_to_the_last_bit(
+        width in 1usize..40, height in 1usize..40, texel: [u8; 4],
+        options in options(), sampler in samplers(), f in footprints(),
+    ) {
+        prop_assume!(!matches!(options.wrap, Wrap::Constant(_)));
+        let t = Texture::new(constant(width, height, texel).view(), &options).unwrap();
+        let expected = t.sample(&Footprint::point(0.5, 0.5), &Sampler::DEFAULT.with(PixelFilter::Nearest, LevelMode::Zero));
+        prop_assert_eq!(t.sample(&f, &sampler), expected);
+    }
+
+    #[test]
+    fn a_row_is_its_samples(
+        seed: u64, options in options(), sampler in samplers(),
+        x in -50.0..1300.0f64, y in -30.0..700.0f64,
+    ) {
+        let t = texture(37, 51, seed, &options);
+        for map in [ground(64), Homography::IDENTITY] {
+            let mut row = [Premul::TRANSPARENT; 21];
+            t.sample_row(&map, DVec2::new(x, y), &sampler, &mut row);
+            for (i, c) in row.iter().enumerate() {
+                let f = Footprint::at(&map, DVec2::new(x + i as f64, y));
+                prop_assert_eq!(*c, t.sample(&f, &sampler));
+            }
+        }
+    }
+
+    #[test]
+    fn a_repeating_texture_has_no_origin(
+        seed: u64, sampler in samplers(), u in 0.0..32.0f64, v in 0.0..32.0f64,
+        i in -3i32..4, j in -3i32..4, a in -4.0..4.0f64, d in -4.0..4.0f64,
+    ) {
+        let options = TextureOptions { wrap: Wrap::Repeat, ..TextureOptions::default() };
+        let t = texture(32, 32, seed, &options);
+        let jacobian = Matrix2::new(a, 0.5, -0.5, d);
+        // Quarters survive the translation exactly.
+        let (u, v) = ((u * 4.0).floor() / 4.0, (v * 4.0).floor() / 4.0);
+        let here = t.sample(&Footprint { u, v, jacobian }, &sampler);
+        let (u, v) = (u + 32.0 * f64::from(i), v + 32.0 * f64::from(j));
+        prop_assert_eq!(t.sample(&Footprint { u, v, jacobian }, &sampler), here);
+    }
+
+    #[test]
+    fn the_sign_of_an_axis_does_not_matter(
+        seed: u64, u in 0.0..48.0f64, v in 0.0..48.0f64,
+        [a, b, c, d] in [-9.0..9.0f64, -9.0..9.0f64, -9.0..9.0f64, -9.0..9.0f64],
+    ) {
+        let t = texture(48, 48, seed, &TextureOptions::default());
+        let s = Sampler::default();
+        let one = t.sample(&Footprint { u, v, jacobian: Matrix2::new(a, b, c, d) }, &s);
+        let mirrored = t.sample(&Footprint { u, v, jacobian: Matrix2::new(-a, b, -c, d) }, &s);
+        let swapped = t.sample(&Footprint { u, v, jacobian: Matrix2::new(b, a, d, c) }, &s);
+        prop_assert_eq!(one, mirrored);
+        prop_assert_eq!(one, swapped);
+    }
+}
