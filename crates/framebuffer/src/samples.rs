@@ -23,6 +23,8 @@ impl Slot {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct SampleStore {
     per_pixel: usize,
+    /// Slots that there can be: one a pixel.
+    most: usize,
     colors: Vec<Premul>,
     /// Per slot: the samples written since they were last seen to differ. Once all have been, they
     /// are worth comparing.
@@ -31,9 +33,13 @@ pub(crate) struct SampleStore {
 }
 
 impl SampleStore {
+    /// Bytes that a slot takes beside its samples.
+    pub(crate) const OVERHEAD: usize = size_of::<u64>() + size_of::<Slot>();
+
     /// Forgets every slot, keeps the allocation.
-    pub(crate) fn reset(&mut self, per_pixel: usize) {
+    pub(crate) fn reset(&mut self, per_pixel: usize, pixels: usize) {
         self.per_pixel = per_pixel;
+        self.most = pixels;
         self.colors.clear();
         self.touched.clear();
         self.free.clear();
@@ -46,9 +52,22 @@ impl SampleStore {
             self.touched[slot.index()] = 0;
             return slot;
         }
+        if self.touched.len() == self.touched.capacity() {
+            self.grow();
+        }
         self.colors.resize(self.colors.len() + self.per_pixel, color);
         self.touched.push(0);
         Slot(self.touched.len() as u32)
+    }
+
+    /// Doubles the room, but never beyond a slot for every pixel.
+    #[cold]
+    fn grow(&mut self) {
+        let slots = self.touched.len();
+        let more = slots.max(16).min(self.most.saturating_sub(slots));
+        self.touched.reserve_exact(more);
+        self.free.reserve_exact(slots + more);
+        self.colors.reserve_exact((slots + more) * self.per_pixel - self.colors.len());
     }
 
     /// Gives a slot back.
@@ -77,6 +96,17 @@ impl SampleStore {
         *touched = 0;
         let samples = self.get(slot);
         samples.iter().all(|&s| same_bits(s, samples[0]))
+    }
+}
+
+#[cfg(test)]
+impl SampleStore {
+    pub(crate) fn color_capacity(&self) -> usize {
+        self.colors.capacity()
+    }
+
+    pub(crate) fn slot_capacity(&self) -> usize {
+        self.touched.capacity().max(self.free.capacity())
     }
 }
 

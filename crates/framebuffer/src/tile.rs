@@ -46,7 +46,27 @@ impl Tile {
         self.colors.resize(len, background);
         self.slots.clear();
         self.slots.resize(len, Slot::UNIFORM);
-        self.store.reset(self.samples as usize);
+        self.store.reset(self.samples as usize, len);
+    }
+
+    /// The most bytes that a tile of this shape takes: what it takes if an edge crosses every
+    /// pixel. Shapes are brought into range as by [`reset`](Self::reset).
+    ///
+    /// ```
+    /// use scumble_framebuffer::Tile;
+    ///
+    /// assert_eq!(Tile::max_bytes(64, 64, 1), 80 << 10);
+    /// assert_eq!(Tile::max_bytes(64, 64, 16), 1152 << 10);
+    /// ```
+    #[must_use]
+    pub fn max_bytes(width: u32, height: u32, samples: u32) -> u64 {
+        let pixels = u64::from(width.min(Self::MAX_SIDE)) * u64::from(height.min(Self::MAX_SIDE));
+        let uniform = size_of::<Premul>() + size_of::<Slot>();
+        let split = match samples.clamp(1, 64) as usize {
+            1 => 0,
+            n => n * size_of::<Premul>() + SampleStore::OVERHEAD,
+        };
+        pixels * (uniform + split) as u64
     }
 
     /// Columns.
