@@ -121,25 +121,27 @@ pub(crate) fn same_bits(a: Premul, b: Premul) -> bool {
 /// The differences are added in four chains, sample i to chain i mod 4, and then
 /// (0 + 1) + (2 + 3): a fixed order that a machine of any vector width can follow.
 pub(crate) fn mean(samples: &[Premul]) -> Premul {
-    let Some(&Premul(first)) = samples.first() else { return Premul::TRANSPARENT };
-    let mut chains = [[0.0_f32; 4]; 4];
+    let Some(&first) = samples.first() else { return Premul::TRANSPARENT };
+    let mut chains = [[0.0; 4]; 4];
     let (groups, rest) = samples.as_chunks::<4>();
     for group in groups {
-        for (chain, sample) in chains.iter_mut().zip(group) {
-            add_difference(chain, sample, &first);
-        }
+        add_differences(&mut chains, group, first);
     }
-    for (chain, sample) in chains.iter_mut().zip(rest) {
-        add_difference(chain, sample, &first);
+    if !rest.is_empty() {
+        // Filled up with the first sample, which adds nothing.
+        let mut group = [first; 4];
+        group[..rest.len()].copy_from_slice(rest);
+        add_differences(&mut chains, &group, first);
     }
     let n = samples.len() as f32;
     let [c0, c1, c2, c3] = chains;
-    Premul(core::array::from_fn(|c| first[c] + ((c0[c] + c1[c]) + (c2[c] + c3[c])) / n))
+    Premul(core::array::from_fn(|c| first.0[c] + ((c0[c] + c1[c]) + (c2[c] + c3[c])) / n))
 }
 
+/// Over arrays, whose lengths the compiler knows: so the chains stay in registers.
 #[inline]
-fn add_difference(sum: &mut [f32; 4], sample: &Premul, first: &[f32; 4]) {
-    for c in 0..4 {
-        sum[c] += sample.0[c] - first[c];
+fn add_differences(chains: &mut [[f32; 4]; 4], group: &[Premul; 4], first: Premul) {
+    for (chain, sample) in chains.iter_mut().zip(group) {
+        *chain = core::array::from_fn(|c| chain[c] + (sample.0[c] - first.0[c]));
     }
 }
