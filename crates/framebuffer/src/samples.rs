@@ -13,6 +13,11 @@ impl Slot {
         self == Self::UNIFORM
     }
 
+    /// Looks at all of them, since a loop that could stop early would not fill vectors.
+    pub(crate) fn all_uniform(slots: &[Self]) -> bool {
+        slots.iter().fold(0, |any, slot| any | slot.0) == 0
+    }
+
     fn index(self) -> usize {
         self.0 as usize - 1
     }

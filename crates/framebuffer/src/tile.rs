@@ -192,7 +192,7 @@ impl Tile {
 
     /// Whether no pixel of the span is split.
     fn is_uniform(&self, span: Range<usize>) -> bool {
-        self.slots[span].iter().all(|slot| slot.is_uniform())
+        Slot::all_uniform(&self.slots[span])
     }
 
     fn index(&self, x: u32, y: u32) -> Option<usize> {
