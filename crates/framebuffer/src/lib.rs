@@ -41,7 +41,7 @@
 //! assert_eq!(codes[2], [128, 128, 128, 255]);
 //! assert_eq!(codes[3], [255, 255, 255, 255]);
 //! ```
-#![cfg_attr(not(feature = "std"), no_std)]
+#![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 extern crate alloc;
 
@@ -49,5 +49,5 @@ mod encode;
 mod samples;
 mod tile;
 
-pub use encode::encode_row;
+pub use encode::{encode_row, encode_row_dithered, encode_row16};
 pub use tile::Tile;

@@ -93,14 +93,23 @@ pub(crate) fn same_bits(a: Premul, b: Premul) -> bool {
 pub(crate) fn mean(samples: &[Premul]) -> Premul {
     let Some(&Premul(first)) = samples.first() else { return Premul::TRANSPARENT };
     let mut chains = [[0.0_f32; 4]; 4];
-    for group in samples.chunks(4) {
+    let (groups, rest) = samples.as_chunks::<4>();
+    for group in groups {
         for (chain, sample) in chains.iter_mut().zip(group) {
-            for c in 0..4 {
-                chain[c] += sample.0[c] - first[c];
-            }
+            add_difference(chain, sample, &first);
         }
+    }
+    for (chain, sample) in chains.iter_mut().zip(rest) {
+        add_difference(chain, sample, &first);
     }
     let n = samples.len() as f32;
     let [c0, c1, c2, c3] = chains;
     Premul(core::array::from_fn(|c| first[c] + ((c0[c] + c1[c]) + (c2[c] + c3[c])) / n))
+}
+
+#[inline]
+fn add_difference(sum: &mut [f32; 4], sample: &Premul, first: &[f32; 4]) {
+    for c in 0..4 {
+        sum[c] += sample.0[c] - first[c];
+    }
 }

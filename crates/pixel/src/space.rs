@@ -84,21 +84,17 @@ impl WorkingSpace {
     #[must_use]
     #[inline]
     pub fn export(self, color: Premul) -> [u8; 4] {
-        let alpha = unorm8(color.alpha());
-        if alpha == 0 {
-            return [0; 4];
-        }
-        let Straight([r, g, b, _]) = color.unpremultiply();
         match self {
-            Self::Srgb => [unorm8(r), unorm8(g), unorm8(b), alpha],
-            Self::Linear => [srgb::encode8(r), srgb::encode8(g), srgb::encode8(b), alpha],
+            Self::Srgb => export_with(color, unorm8),
+            Self::Linear => export_with(color, srgb::encode8),
         }
     }
 
     /// [`export`](Self::export) of a row; the shorter slice ends it.
     pub fn export_row(self, colors: &[Premul], out: &mut [[u8; 4]]) {
-        for (out, &color) in out.iter_mut().zip(colors) {
-            *out = self.export(color);
+        match self {
+            Self::Srgb => export_row_with(colors, out, unorm8),
+            Self::Linear => export_row_with(colors, out, srgb::encode8),
         }
     }
 
@@ -110,6 +106,23 @@ impl WorkingSpace {
     pub fn export16(self, color: Premul) -> [u16; 4] {
         let codes = self.export_straight(color).0.map(unorm16);
         if codes[3] == 0 { [0; 4] } else { codes }
+    }
+}
+
+#[inline]
+fn export_with(color: Premul, encode: impl Fn(f32) -> u8) -> [u8; 4] {
+    let alpha = unorm8(color.alpha());
+    if alpha == 0 {
+        return [0; 4];
+    }
+    let Straight([r, g, b, _]) = color.unpremultiply();
+    [encode(r), encode(g), encode(b), alpha]
+}
+
+#[inline]
+fn export_row_with(colors: &[Premul], out: &mut [[u8; 4]], encode: impl Fn(f32) -> u8) {
+    for (out, &color) in out.iter_mut().zip(colors) {
+        *out = export_with(color, &encode);
     }
 }
 

@@ -78,10 +78,13 @@ const fn decode_power(e: f64) -> f64 {
 #[must_use]
 #[inline]
 pub const fn decode(encoded: f32) -> f32 {
+    // Both branches always, then a choice: that is what lets a row of them fill vectors.
+    let line = (encoded as f64 / SLOPE) as f32;
+    let curve = decode_power(encoded as f64) as f32;
     if encoded <= ENCODED_KNEE {
-        (encoded as f64 / SLOPE) as f32
+        line
     } else if encoded < f32::INFINITY {
-        decode_power(encoded as f64) as f32
+        curve
     } else {
         encoded
     }
@@ -94,10 +97,12 @@ pub const fn decode(encoded: f32) -> f32 {
 #[must_use]
 #[inline]
 pub const fn encode(linear: f32) -> f32 {
+    let line = (linear as f64 * SLOPE) as f32;
+    let curve = (1.055 * pow_1_2_4(linear as f64) - 0.055) as f32;
     if linear <= LINEAR_KNEE {
-        (linear as f64 * SLOPE) as f32
+        line
     } else if linear < f32::INFINITY {
-        (1.055 * pow_1_2_4(linear as f64) - 0.055) as f32
+        curve
     } else {
         linear
     }
