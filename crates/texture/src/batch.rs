@@ -47,7 +47,7 @@ struct Outlines {
     fx: [f32; BATCH],
     fy: [f32; BATCH],
     first: [f32; BATCH],
-    last: [f32; BATCH],
+    rise: [f32; BATCH],
     run: [f32; BATCH],
     slope: [f32; BATCH],
     row_scale: [f32; BATCH],
@@ -97,10 +97,11 @@ fn finish(
     limits: &Limits,
 ) -> Premul {
     let level = &t.levels[pick.level];
-    if outlines.rare[i] == 0.0 && pick.coarser == 0.0 {
-        return into_range(engine.walk(level, t.wrap, &outlines.get(i, limits).walk()));
-    }
-    let fine = filter(t, engine, ellipses, i, pick.level, limits);
+    let fine = if outlines.rare[i] == 0.0 {
+        engine.walk(level, t.wrap, &outlines.get(i, limits).walk())
+    } else {
+        filter(t, engine, ellipses, i, pick.level, limits)
+    };
     if pick.coarser == 0.0 {
         return into_range(fine);
     }
@@ -181,7 +182,7 @@ impl Outlines {
             o.fx[i] = outline.fx;
             o.fy[i] = outline.fy;
             o.first[i] = outline.first;
-            o.last[i] = outline.last;
+            o.rise[i] = outline.rise;
             o.run[i] = outline.run;
             o.slope[i] = outline.slope;
             o.row_scale[i] = outline.row_scale;
@@ -199,7 +200,7 @@ impl Outlines {
             fx: self.fx[i],
             fy: self.fy[i],
             first: self.first[i],
-            last: self.last[i],
+            rise: self.rise[i],
             run: self.run[i],
             slope: self.slope[i],
             row_scale: self.row_scale[i],

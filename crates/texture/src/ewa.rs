@@ -166,7 +166,7 @@ pub(crate) struct Outline {
     pub(crate) fx: f32,
     pub(crate) fy: f32,
     pub(crate) first: f32,
-    pub(crate) last: f32,
+    pub(crate) rise: f32,
     pub(crate) run: f32,
     pub(crate) slope: f32,
     pub(crate) row_scale: f32,
@@ -191,14 +191,14 @@ impl Outline {
         let (uv, vv, det) = (sigma.uv as f32, sigma.vv as f32, sigma.det as f32);
         let inverse_vv = 1.0 / vv;
         // Half-widths: R√Σvv over the rows, R√(det/Σvv) along any one row.
-        let rows = limits.radius * sqrt32(vv);
+        let rise = limits.radius * sqrt32(vv);
         Self {
             x0,
             y0,
             fx,
             fy,
-            first: -floor32(rows - fy),
-            last: floor32(rows + fy),
+            first: -floor32(rise - fy),
+            rise,
             run: limits.radius * sqrt32(det * inverse_vv),
             slope: uv * inverse_vv,
             row_scale: 0.5 * inverse_vv,
@@ -216,7 +216,7 @@ impl Outline {
             fx: self.fx,
             fy: self.fy,
             first: self.first as i32,
-            last: self.last as i32,
+            rise: self.rise,
             run: self.run,
             slope: self.slope,
             row_scale: self.row_scale,
