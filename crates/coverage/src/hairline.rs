@@ -50,5 +50,5 @@ fn walk(from: DVec2, to: DVec2, xs: (i32, i32), ys: (i32, i32), mut visit: impl 
 
 /// `f64::floor` for any finite number, without the standard library.
 fn floor(v: f64) -> f64 {
-    if v.abs() < 4_503_599_627_370_496.0 { crate::fixed::floor(v) } else { v }
+    if v.abs() < 2_251_799_813_685_248.0 { crate::fixed::floor(v) } else { v }
 }

@@ -51,6 +51,7 @@ mod options;
 mod parse;
 mod position;
 mod resources;
+mod svg;
 mod transform;
 mod trig;
 mod warning;

@@ -2,7 +2,7 @@ use crate::error::ErrorKind;
 use crate::extension::{NAMESPACE, svg_name};
 use crate::images::{Images, shorten};
 use crate::warning::Warnings;
-use crate::{Options, Position, Profile, ProfileChoice, SvgError, Warning, course, input};
+use crate::{Options, Position, Profile, ProfileChoice, SvgError, Warning, course, input, svg};
 use roxmltree::Node;
 use scumble_scene::Scene;
 
@@ -37,7 +37,7 @@ pub fn parse(document: &[u8], options: &Options<'_>) -> Result<Parsed, SvgError>
     let images = Images::new(options.resources, options.limits);
     let scene = match profile {
         Profile::Course => course::read(root, images, &mut warnings),
-        Profile::Svg => Err(ErrorKind::NotSvg("svg".into()).into()),
+        Profile::Svg => svg::read(root, &options.limits, images, &mut warnings),
     };
     let scene = scene.map_err(|fault| fault.locate(text))?;
     Ok(Parsed { scene, profile, warnings: warnings.finish(text) })

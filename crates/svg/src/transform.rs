@@ -24,11 +24,7 @@ pub(crate) fn parse(text: &str) -> Result<Homography, String> {
         product = product * parse_function(&mut cursor)?;
     }
     let map = product.restrict();
-    if map.is_finite() {
-        Ok(map)
-    } else {
-        Err("its numbers are too large".into())
-    }
+    if map.is_finite() { Ok(map) } else { Err("its numbers are too large".into()) }
 }
 
 /// A number with its unit, which is empty for a plain number.
