@@ -38,17 +38,6 @@ impl Level {
         Self { scale, blurred, ..self }
     }
 
-    /// Lets ellipses reach over any number of tiles. Cutting them would alias: the mean over a
-    /// part of a tile is not the mean over all of it. Along an axis of one texel every tile is the
-    /// same, and a short reach says as much as a long one.
-    pub(crate) fn reach_on(&mut self) {
-        for (most, n) in self.most.iter_mut().zip([self.width, self.height]) {
-            if n > 1 {
-                *most = f64::INFINITY;
-            }
-        }
-    }
-
     /// The texels of row `y`, which must exist.
     #[inline(always)]
     pub(crate) fn row(&self, y: usize) -> &[[f32; 4]] {

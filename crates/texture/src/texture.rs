@@ -60,9 +60,6 @@ impl Texture {
             average = texels[0];
         }
         let TextureOptions { space, wrap, .. } = *options;
-        if wrap.is_periodic() {
-            levels.iter_mut().for_each(Level::reach_on);
-        }
         let nearer = [Nearer::new(wrap, width), Nearer::new(wrap, height)];
         Ok(Self { levels, wrap, space, average, nearer, simd: Simd::best() })
     }

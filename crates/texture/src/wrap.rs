@@ -20,11 +20,6 @@ pub enum Wrap {
 pub(crate) const FAR: f64 = 1_099_511_627_776.0;
 
 impl Wrap {
-    /// Whether the texture is repeated, mirrored or not.
-    pub(crate) fn is_periodic(self) -> bool {
-        matches!(self, Self::Repeat | Self::Mirror)
-    }
-
     /// The texel that stands at index `i` of an axis with `n` texels; `None` for the constant.
     #[inline(always)]
     pub(crate) fn resolve(self, i: i64, n: usize) -> Option<usize> {

@@ -22,10 +22,8 @@ fn a_tiled_floor_does_not_alias_near_its_horizon() {
         let options = TextureOptions { wrap, ..TextureOptions::default() };
         let Ok(texture) = Texture::new(tile.view(), &options) else { panic!("a small texture") };
         let gaussian = PixelShape::Gaussian { sigma: 0.5 };
-        // Without widening, which blurs more than the truth does.
-        let sampler = Sampler { max_eccentricity: 1024.0, ..Sampler::default() };
         let truth = Reference::new(&texture, gaussian).with_density(0.25, 16);
-        for y in [12.5, 20.5, 35.5, 60.5] {
+        for y in [20.5, 35.5, 60.5] {
             for x in [-370.5, -200.5, -40.5, 101.5] {
                 let p = DVec2::new(x, y);
                 let Premul(ours) = texture.sample(&Footprint::at(&floor(), p), &Sampler::default());
