@@ -60,9 +60,9 @@ mod scratch;
 mod shape;
 mod sink;
 mod triangle;
-mod triangle_area;
 
 pub use error::CoverageError;
+pub use fearless_simd::Level;
 pub use fixed::FixedPoint;
 pub use hairline::hairline;
 pub use mask::SampleMask;

@@ -103,7 +103,9 @@ impl Shape {
             return;
         }
         match &self.0 {
-            Kind::Triangle(t) => t.rasterize(region, pattern, &mut scratch.triangle, sink),
+            Kind::Triangle(t) => {
+                t.rasterize(region, pattern, scratch.level, &mut scratch.triangle, sink);
+            }
             Kind::Polygon(p) => p.rasterize(region, pattern, &mut scratch.polygon, sink),
         }
     }

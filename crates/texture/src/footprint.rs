@@ -21,7 +21,7 @@ impl Footprint {
     /// Behind the eye and on the horizon (w ≤ 0) everything in it is NaN, which every filter
     /// takes for "infinitely far".
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn at(map: &Homography, p: DVec2) -> Self {
         let h = map.project_homogeneous(p);
         let w = if h.z > 0.0 { 1.0 / h.z } else { f64::NAN };
@@ -44,7 +44,7 @@ impl Footprint {
 
     /// The square of the longer column of the Jacobian: how far, in texels, a step of one pixel
     /// along x or y goes.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn longest_step_squared(&self) -> f64 {
         let Matrix2 { a, b, c, d } = self.jacobian;
         let (x, y) = (a * a + c * c, b * b + d * d);

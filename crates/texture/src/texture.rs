@@ -1,13 +1,15 @@
 use crate::decimate::halve;
-use crate::ewa::{self, Limits, Plan};
+use crate::engine::{Engine, Scalar, Vector};
+use crate::ewa::{self, Limits};
 use crate::level::Level;
 use crate::point::{bilinear, lerp, nearest};
 use crate::srgb::decode_table;
 use crate::{
-    Decimation, Footprint, LevelMode, Levels, PixelFilter, Sampler, TextureError, TextureOptions,
-    Wrap, lod,
+    Footprint, LevelMode, Levels, PixelFilter, Sampler, Simd, TextureError, TextureOptions, Wrap,
+    lod,
 };
 use alloc::vec::Vec;
+use fearless_simd::dispatch;
 use scumble_geometry::{DVec2, Homography};
 use scumble_pixel::{ImageView, Premul, WorkingSpace};
 
@@ -19,9 +21,9 @@ use scumble_pixel::{ImageView, Premul, WorkingSpace};
 pub struct Texture {
     pub(crate) levels: Vec<Level>,
     pub(crate) wrap: Wrap,
-    pub(crate) decimation: Decimation,
     space: WorkingSpace,
     average: [f32; 4],
+    simd: Simd,
 }
 
 impl Texture {
@@ -48,13 +50,20 @@ impl Texture {
         while let Some(last) = levels.last()
             && levels.len() < count(width, height, options.levels)
         {
-            levels.push(halve(last, options.decimation, options.wrap)?);
+            let next = halve(last, options.decimation, options.wrap)?;
+            levels.push(next.over([width, height], options.decimation.variance()));
         }
-        if let [.., Level { width: 1, height: 1, texels }] = &levels[..] {
+        if let [.., Level { width: 1, height: 1, texels, .. }] = &levels[..] {
             average = texels[0];
         }
-        let TextureOptions { space, wrap, decimation, .. } = *options;
-        Ok(Self { levels, wrap, decimation, space, average })
+        let TextureOptions { space, wrap, .. } = *options;
+        Ok(Self { levels, wrap, space, average, simd: Simd::best() })
+    }
+
+    /// The same texture, sampled with other instructions and the same results.
+    #[must_use]
+    pub fn with_simd(self, simd: Simd) -> Self {
+        Self { simd, ..self }
     }
 
     /// Columns of level 0.
@@ -115,7 +124,10 @@ impl Texture {
     /// does a Jacobian that is not, or that has a component beyond 2⁴⁰, where the filter needs it.
     #[must_use]
     pub fn sample(&self, f: &Footprint, s: &Sampler) -> Premul {
-        self.sample_prepared(f, s, &Limits::new(s))
+        let mut out = [Premul::TRANSPARENT];
+        self.dispatch(|_| *f, s, &mut out);
+        let [color] = out;
+        color
     }
 
     /// The colours of a run of pixels: `out[i]` is what [`Texture::sample`] gives for
@@ -123,10 +135,32 @@ impl Texture {
     ///
     /// `map` goes from the screen to texels of level 0. The Jacobian is exact at each sample.
     pub fn sample_row(&self, map: &Homography, start: DVec2, s: &Sampler, out: &mut [Premul]) {
+        let at = |i| Footprint::at(map, DVec2::new(start.x + i as f64, start.y));
+        self.dispatch(at, s, out);
+    }
+
+    /// Runs [`Texture::fill`] compiled for the chosen instructions.
+    fn dispatch(&self, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mut [Premul]) {
+        match self.simd.0 {
+            None => self.fill(Scalar, at, s, out),
+            Some(level) => {
+                dispatch!(level, simd => self.fill(Vector(simd), at, s, out));
+            }
+        }
+    }
+
+    /// Samples a run of footprints.
+    #[inline(always)]
+    fn fill(
+        &self,
+        engine: impl Engine,
+        at: impl Fn(usize) -> Footprint,
+        s: &Sampler,
+        out: &mut [Premul],
+    ) {
         let limits = Limits::new(s);
         for (i, out) in out.iter_mut().enumerate() {
-            let f = Footprint::at(map, DVec2::new(start.x + i as f64, start.y));
-            *out = self.sample_prepared(&f, s, &limits);
+            *out = self.sample_prepared(engine, &at(i), s, &limits);
         }
     }
 
@@ -140,13 +174,20 @@ impl Texture {
             PixelFilter::Nearest => 1,
             PixelFilter::Bilinear => 4,
             PixelFilter::Ewa if !ewa::is_usable(&f.jacobian) => return 0,
-            PixelFilter::Ewa => return Plan::new(self, &f, s.level, &Limits::new(s)).texels(),
+            PixelFilter::Ewa => return ewa::cost(self, &f, s.level, &Limits::new(s)),
         };
         let two = lod::pick(&f, point_mode(s), self.levels.len()).coarser > 0.0;
         if two { 2 * each } else { each }
     }
 
-    fn sample_prepared(&self, f: &Footprint, s: &Sampler, limits: &Limits) -> Premul {
+    #[inline(always)]
+    fn sample_prepared(
+        &self,
+        engine: impl Engine,
+        f: &Footprint,
+        s: &Sampler,
+        limits: &Limits,
+    ) -> Premul {
         let Some(f) = self.reduce(f) else {
             return into_range(self.average);
         };
@@ -158,7 +199,7 @@ impl Texture {
                 self.blend_levels(&f, s, |l, u, v| bilinear(&self.levels[l], self.wrap, u, v))
             }
             PixelFilter::Ewa if !ewa::is_usable(&f.jacobian) => self.average,
-            PixelFilter::Ewa => Plan::new(self, &f, s.level, limits).run(self),
+            PixelFilter::Ewa => ewa::sample(self, engine, &f, s.level, limits),
         })
     }
 
@@ -179,18 +220,11 @@ impl Texture {
     ) -> [f32; 4] {
         let pick = lod::pick(f, point_mode(s), self.levels.len());
         let at = |level: usize| {
-            let [su, sv] = self.scale(level);
+            let [su, sv] = self.levels[level].scale;
             filter(level, f.u * su, f.v * sv)
         };
         let fine = at(pick.level);
         if pick.coarser > 0.0 { lerp(fine, at(pick.level + 1), pick.coarser) } else { fine }
-    }
-
-    /// From texels of level 0 to texels of a level, per axis. Not 2^−l where a size was odd.
-    #[inline]
-    pub(crate) fn scale(&self, level: usize) -> [f64; 2] {
-        let (to, from) = (&self.levels[level], &self.levels[0]);
-        [to.width as f64 / from.width as f64, to.height as f64 / from.height as f64]
     }
 }
 

@@ -21,7 +21,7 @@ pub(crate) const FAR: f64 = 1_099_511_627_776.0;
 
 impl Wrap {
     /// The texel that stands at index `i` of an axis with `n` texels; `None` for the constant.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn resolve(self, i: i64, n: usize) -> Option<usize> {
         let size = n as i64;
         if (0..size).contains(&i) {
@@ -40,7 +40,7 @@ impl Wrap {
 
     /// The same place on an axis of `n` texels, brought so near that an index fits an `i64`.
     /// `None` for NaN and infinities.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn reduce(self, u: f64, n: usize) -> Option<f64> {
         if !u.is_finite() {
             return None;

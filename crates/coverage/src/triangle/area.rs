@@ -1,8 +1,8 @@
 //! Exact area of triangles: their winding number is 0 or 1, so signed areas simply add up.
 
+use super::Triangle;
 use crate::AreaSink;
 use crate::accumulate::{AreaRow, Piece, Slope};
-use crate::triangle::Triangle;
 use scumble_geometry::IntRect;
 
 /// Columns of a row's sums: what comfortably stays in the cache.
