@@ -1,5 +1,7 @@
 //! The course profile, rule by rule.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
+
 mod common;
 
 use common::{course, course_text, names, read, warnings};

@@ -1,5 +1,7 @@
 //! Bad input: one clear error or a documented substitute, never a panic, in bounded time.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
+
 mod common;
 
 use common::{OnePicture, course, course_text, data_uri, png, read, svg, svg_text, warnings};

@@ -1,5 +1,7 @@
 //! The SVG profile: what usvg resolves, and what we carry through it.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
+
 mod common;
 
 use common::{data_uri, names, png, read, svg, svg_text, warnings};

@@ -111,7 +111,7 @@ impl<'a, 'input> Graph<'a, 'input> {
         }
         let all_marked = style_sheets(root).any(marks_vertices);
         // Nodes are numbered from the document on, without gaps.
-        let last = root.document().descendants().last().map_or(0, |n| n.id().get_usize());
+        let last = root.document().descendants().next_back().map_or(0, |n| n.id().get_usize());
         Self { by_id, states: vec![State::Unseen; last + 1], all_marked }
     }
 

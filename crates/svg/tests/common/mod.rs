@@ -1,5 +1,6 @@
 //! What the tests share.
 #![allow(dead_code, reason = "each test file uses its own part")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 
 use scumble_scene::Command;
 use scumble_svg::{Options, Parsed, ProfileChoice, ResourceError, Resources, SvgError, parse};
