@@ -247,16 +247,16 @@ impl Writer<'_, '_> {
         self.attributes(node, tag, in_marker, leaf.is_some());
         if !wrapped && !transform.text.is_empty() {
             if transform.from_style {
-                inline.css = format!("{};transform:{}", inline.css, transform.text);
+                inline.declare(&format!("transform:{}", transform.text));
             } else {
                 push_attribute(&mut self.out.xml, "transform", &transform.text);
             }
         }
         if let Some(index) = leaf {
             push_attribute(&mut self.out.xml, "d", &placeholder::leaf_path(index));
-            inline.css = format!("{};{PLACEHOLDER_STYLE}", inline.css);
+            inline.declare(PLACEHOLDER_STYLE);
         } else if in_marker || tag == "marker" {
-            inline.css = format!("{};{NO_MARKERS}", inline.css);
+            inline.declare(NO_MARKERS);
         }
         if !inline.css.is_empty() {
             push_attribute(&mut self.out.xml, "style", &inline.css);
@@ -314,7 +314,7 @@ impl Writer<'_, '_> {
         if text.is_none() && quad.is_none() {
             // The origin may belong to a transform in a style sheet.
             if let Some(origin) = origin {
-                inline.css = format!("{};transform-origin:{origin}", inline.css);
+                inline.declare(&format!("transform-origin:{origin}"));
             }
             return Ok(Transform::default());
         }
@@ -324,7 +324,7 @@ impl Writer<'_, '_> {
             map = self.about_origin(node, map, origin);
             if is_root {
                 // Else usvg would turn the root about its middle.
-                inline.css.push_str(";transform-origin:0 0");
+                inline.declare("transform-origin:0 0");
             }
         }
         let affine = map.to_affine().filter(|_| quad.is_none());
