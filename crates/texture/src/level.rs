@@ -11,8 +11,9 @@ pub(crate) struct Level {
     pub(crate) scale: [f64; 2],
     /// The variance that the pyramid has added so far, per axis, in squared texels of level 0.
     pub(crate) blurred: [f64; 2],
-    /// How far an ellipse may reach from its centre, per axis: one wrap of the level beyond its
-    /// half, and a texel.
+    /// How far an ellipse may reach from its centre, per axis: no bound, except along an axis of one
+    /// texel. An ellipse that is cut short of its length aliases: over a repeated texture it may
+    /// well cross many repeats.
     pub(crate) most: [f64; 2],
 }
 
@@ -26,7 +27,7 @@ impl Level {
         let mut texels = Vec::new();
         texels.try_reserve_exact(len).map_err(|_| TextureError::OutOfMemory { bytes })?;
         texels.resize(len, [0.0; 4]);
-        let most = [width, height].map(|n| 1.5 * n as f64 + 1.0);
+        let most = [width, height].map(|n| if n == 1 { 2.5 } else { f64::INFINITY });
         Ok(Self { width, height, texels, scale: [1.0; 2], blurred: [0.0; 2], most })
     }
 
