@@ -38,13 +38,21 @@ fn walk(from: DVec2, to: DVec2, xs: (i32, i32), ys: (i32, i32), mut visit: impl 
         (-1.0, start - (f64::from(xs.1) - 1.0), start - f64::from(xs.0))
     };
     let last = floor(half.x.abs() * 2.0);
-    let mut step = low.max(0.0);
-    while step <= high.min(last) {
-        let y = floor(from.y + sign * step * slope);
-        if y >= f64::from(ys.0) && y < f64::from(ys.1) {
-            visit((start + sign * step) as i32, y as i32);
+    let first = low.max(0.0);
+    let end = high.min(last);
+    if end < first {
+        return;
+    }
+    // Counted in whole numbers: far enough out, adding 1 to a step does not change it. At most a
+    // clip's width of them.
+    let count = (end - first) as i32;
+    for i in 0..=count {
+        let step = first + f64::from(i);
+        let (x, y) = (start + sign * step, floor(from.y + sign * step * slope));
+        let inside = |v: f64, range: (i32, i32)| v >= f64::from(range.0) && v < f64::from(range.1);
+        if inside(x, xs) && inside(y, ys) {
+            visit(x as i32, y as i32);
         }
-        step += 1.0;
     }
 }
 
