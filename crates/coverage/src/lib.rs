@@ -61,6 +61,7 @@ mod shape;
 mod sink;
 mod traversal;
 mod triangle;
+mod wide;
 
 pub use error::CoverageError;
 pub use fearless_simd::Level;
