@@ -38,43 +38,67 @@ impl Slope {
 }
 
 /// One edge within one row of pixels.
+///
+/// It is kept so that it runs right: one that runs left is seen in the mirror (x → −x, so that pixel c
+/// becomes pixel −c − 1).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
     slope: Slope,
-    /// Where it enters the row: the height, a multiple of 2⁻³², and x there.
+    mirrored: bool,
+    /// |Δy/Δx|.
+    rise: f64,
+    /// Where it enters the row: the height, a multiple of 2⁻³², and (mirrored) x there.
     start: f64,
     x: f64,
 }
 
+/// A piece down to some height: the (mirrored) x there, the pixels there and at the start.
+#[derive(Debug, Clone, Copy)]
+struct Reach {
+    height: f64,
+    x: f64,
+    first: f64,
+    last: f64,
+}
+
 impl Piece {
     /// `start`: the height at which the edge enters the row (the row's top or its own).
-    pub(crate) fn new(slope: Slope, start: f64) -> Self {
-        Self { slope, start, x: slope.at(start) }
-    }
-
-    /// The part of pixel `c` right of the edge, from where it enters the row to height `y`, where
-    /// the edge is at `x`. Pixels already passed change by whole units of y from then on.
     #[inline]
-    fn right_of(&self, c: f64, y: f64, x: f64) -> i64 {
-        // Seen in the mirror, an edge that runs left runs right.
-        if self.slope.run >= 0.0 {
-            self.before_and_within(self.x - c, x - c, y, self.slope.rise)
-        } else {
-            to_units(y - self.start)
-                - self.before_and_within(c + 1.0 - self.x, c + 1.0 - x, y, -self.slope.rise)
+    pub(crate) fn new(slope: Slope, start: f64) -> Self {
+        let mirrored = slope.run < 0.0;
+        let x = slope.at(start);
+        Self {
+            slope,
+            mirrored,
+            rise: if mirrored { -slope.rise } else { slope.rise },
+            start,
+            x: if mirrored { -x } else { x },
         }
     }
 
-    /// ∫ clamp(1 − u, 0, 1) dt for u that grows from `from` to `to`.
     #[inline]
-    fn before_and_within(&self, from: f64, to: f64, y: f64, rise: f64) -> i64 {
-        let enter = if from < 0.0 { (self.start - from * rise).min(y) } else { self.start };
-        let leave = if to > 1.0 { (self.start + (1.0 - from) * rise).min(y) } else { y };
-        let mean = 1.0 - 0.5 * (from.max(0.0) + to.min(1.0));
-        // An edge that is all left of the pixel, or all right of it, has no part within.
-        let within = if to > 0.0 && from < 1.0 { (leave - enter).max(0.0) * mean } else { 0.0 };
-        let before = if to <= 0.0 { y } else { enter };
-        round_units(before - self.start + within)
+    fn reach(&self, y: f64) -> Reach {
+        let x = self.slope.at(y);
+        let x = if self.mirrored { -x } else { x };
+        Reach { height: y - self.start, x, first: floor(self.x), last: floor(x) }
+    }
+
+    /// ∫ clamp(c + 1 − x(t), 0, 1) dt from the start on, for a (mirrored) pixel c.
+    ///
+    /// A function of the edge, the row, the pixel and the height, which changes by whole units once the
+    /// edge has left the pixel: so it does not matter at which heights a sum is cut.
+    #[inline]
+    fn left_behind(&self, c: f64, to: &Reach) -> i64 {
+        if c < to.first {
+            return 0;
+        }
+        if c > to.last {
+            return to_units(to.height);
+        }
+        let time = |x: f64| ((x - self.x) * self.rise).min(to.height);
+        let (enter, from) = if c > to.first { (time(c), 0.0) } else { (0.0, self.x - c) };
+        let (leave, until) = if c < to.last { (time(c + 1.0), 1.0) } else { (to.height, to.x - c) };
+        round_units(enter + (leave - enter).max(0.0) * (1.0 - 0.5 * (from + until)))
     }
 }
 
@@ -95,8 +119,11 @@ fn round_units(v: f64) -> i64 {
 pub(crate) struct AreaRow {
     x0: i32,
     x1: i32,
-    /// Per pixel: the area within it, and what all pixels from it on get. All zero between rows.
-    cells: Vec<[i64; 2]>,
+    /// Per pixel: the area within it. All zero between rows. (Not side by side with `onward`: a
+    /// load of both would wait for the stores of each.)
+    within: Vec<i64>,
+    /// Per pixel: what it and all pixels right of it get. All zero between rows.
+    onward: Vec<i64>,
     /// One bit per pixel: whether its cell was written.
     marked: Vec<u64>,
 }
@@ -105,45 +132,59 @@ impl AreaRow {
     pub(crate) fn start(&mut self, x0: i32, x1: i32) {
         (self.x0, self.x1) = (x0, x1);
         let width = (x1 - x0) as usize;
-        self.cells.resize(self.cells.len().max(width), [0; 2]);
+        let room = self.within.len().max(width);
+        self.within.resize(room, 0);
+        self.onward.resize(room, 0);
         self.marked.resize(width.div_ceil(64), 0);
     }
 
     /// Adds `weight` times what lies right of the piece between the heights `top` and `bottom`.
     #[inline]
     pub(crate) fn add(&mut self, piece: &Piece, top: f64, bottom: f64, weight: i64) {
-        let from = if top > piece.start { piece.slope.at(top) } else { piece.x };
-        let to = piece.slope.at(bottom);
-        let (left, right) = if from < to { (from, to) } else { (to, from) };
+        let whole = top <= piece.start;
+        let (low, high) = (piece.reach(top), piece.reach(bottom));
+        let before = |c: f64| if whole { 0 } else { piece.left_behind(c, &low) };
+        let height = to_units(bottom - top);
         // Held to the clip's columns while still real: the numbers may be far outside.
-        let (x0, x1) = (f64::from(self.x0), f64::from(self.x1));
-        let first = floor(left.clamp(x0, x1)) as i32;
-        let last = if right < x0 { self.x0 - 1 } else { floor(right.min(x1 - 0.5)) as i32 };
-        for x in first..=last {
-            let c = f64::from(x);
-            let mut area = piece.right_of(c, bottom, to);
-            if top > piece.start {
-                area -= piece.right_of(c, top, from);
+        let (x0, x1) = (f64::from(self.x0) - 1.0, f64::from(self.x1));
+        if piece.mirrored {
+            // What lies left of it in the mirror lies right of it: the rest of the height.
+            let first = (-1.0 - high.last).clamp(x0, x1) as i32;
+            let last = (-1.0 - low.last).clamp(x0, x1) as i32;
+            for x in first.max(self.x0)..(last + 1).min(self.x1) {
+                let c = -1.0 - f64::from(x);
+                let left = piece.left_behind(c, &high) - before(c);
+                let column = self.mark(x);
+                self.within[column] += weight * (height - left);
             }
-            self.mark(x)[0] += weight * area;
+            self.add_from(last + 1, weight * height);
+        } else {
+            let first = low.last.clamp(x0, x1) as i32;
+            let last = high.last.clamp(x0, x1) as i32;
+            for x in first.max(self.x0)..(last + 1).min(self.x1) {
+                let c = f64::from(x);
+                let right = piece.left_behind(c, &high) - before(c);
+                let column = self.mark(x);
+                self.within[column] += weight * right;
+            }
+            self.add_from(last + 1, weight * height);
         }
-        let beyond = if right >= x1 { self.x1 } else { last + 1 };
-        self.add_from(beyond, weight * to_units(bottom - top));
     }
 
     /// Adds to all pixels from `x` on (which may be left or right of the clip).
     #[inline]
     pub(crate) fn add_from(&mut self, x: i32, area: i64) {
         if x < self.x1 {
-            self.mark(x.max(self.x0))[1] += area;
+            let column = self.mark(x.max(self.x0));
+            self.onward[column] += area;
         }
     }
 
     #[inline]
-    fn mark(&mut self, x: i32) -> &mut [i64; 2] {
+    fn mark(&mut self, x: i32) -> usize {
         let column = (x - self.x0) as usize;
         self.marked[column / 64] |= 1 << (column % 64);
-        &mut self.cells[column]
+        column
     }
 
     /// Hands the sums of the row on, and empties it.
@@ -157,9 +198,8 @@ impl AreaRow {
                 bits &= bits - 1;
                 let x = self.x0 + column as i32;
                 out.emit(from, x, sum);
-                let [within, onward] = core::mem::take(&mut self.cells[column]);
-                sum += onward;
-                out.emit(x, x + 1, sum + within);
+                sum += core::mem::take(&mut self.onward[column]);
+                out.emit(x, x + 1, sum + core::mem::take(&mut self.within[column]));
                 from = x + 1;
             }
         }

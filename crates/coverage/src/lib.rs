@@ -59,6 +59,7 @@ mod polygon;
 mod scratch;
 mod shape;
 mod sink;
+mod traversal;
 mod triangle;
 
 pub use error::CoverageError;
@@ -71,3 +72,4 @@ pub use scratch::Scratch;
 pub use scumble_geometry::{DVec2, FillRule, IntRect};
 pub use shape::{Cover, Shape};
 pub use sink::{AreaSink, Sink};
+pub use traversal::{Order, Traversal};

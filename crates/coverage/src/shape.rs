@@ -1,6 +1,6 @@
 use crate::polygon::Polygon;
 use crate::triangle::Triangle;
-use crate::{AreaSink, CoverageError, SamplePattern, Scratch, Sink, guard};
+use crate::{AreaSink, CoverageError, SamplePattern, Scratch, Sink, Traversal, guard};
 use alloc::boxed::Box;
 use scumble_geometry::{DVec2, FillRule, IntRect};
 
@@ -107,6 +107,28 @@ impl Shape {
                 t.rasterize(region, pattern, scratch.level, &mut scratch.triangle, sink);
             }
             Kind::Polygon(p) => p.rasterize(region, pattern, &mut scratch.polygon, sink),
+        }
+    }
+
+    /// [`Shape::rasterize`] by another way of finding the samples: the same samples, in another
+    /// order and another time.
+    pub fn rasterize_by(
+        &self,
+        traversal: Traversal,
+        clip: IntRect,
+        pattern: &SamplePattern,
+        scratch: &mut Scratch,
+        sink: &mut impl Sink,
+    ) {
+        let region = clip.intersect(&self.bounds());
+        if region.is_empty() {
+            return;
+        }
+        match (&self.0, traversal) {
+            (_, Traversal::Tiled) => self.rasterize(clip, pattern, scratch, sink),
+            (Kind::Triangle(t), _) => t.traverse(traversal, region, pattern, sink),
+            (Kind::Polygon(p), Traversal::BoundingBox) => p.test_each(region, pattern, sink),
+            (Kind::Polygon(_), _) => self.rasterize(clip, pattern, scratch, sink),
         }
     }
 

@@ -148,15 +148,7 @@ impl Tile {
         for y in 0..self.height().min(layer.height()) {
             let below = self.span(0, y, layer.width);
             for (i, j) in below.zip(layer.span(0, y, self.width)) {
-                let slot = layer.slots[j];
-                if slot.is_uniform() {
-                    self.blend_pixel(i, layer.colors[j].scaled(opacity));
-                } else if layer.samples == self.samples {
-                    let colors = layer.store.get(slot).iter().map(|c| c.scaled(opacity));
-                    self.blend_split(i, self.full, colors);
-                } else {
-                    self.blend_pixel(i, layer.resolve(j).scaled(opacity));
-                }
+                self.composite_pixel(i, layer, j, opacity);
             }
         }
     }
@@ -206,6 +198,21 @@ impl Tile {
             self.slots[i].is_uniform() && same_bits(self.colors[i], color)
         } else {
             alpha == 0.0 && same_bits(color, Premul::TRANSPARENT)
+        }
+    }
+
+    /// Pixel `j` of the layer over pixel `i`.
+    fn composite_pixel(&mut self, i: usize, layer: &Self, j: usize, opacity: f32) {
+        let slot = layer.slots[j];
+        if !slot.is_uniform() && layer.samples == self.samples {
+            let colors = layer.store.get(slot).iter().map(|c| c.scaled(opacity));
+            self.blend_split(i, self.full, colors);
+            return;
+        }
+        let color = layer.resolve(j);
+        // Most of a layer is empty.
+        if !same_bits(color, Premul::TRANSPARENT) {
+            self.blend_pixel(i, color.scaled(opacity));
         }
     }
 

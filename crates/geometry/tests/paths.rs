@@ -47,13 +47,15 @@ proptest! {
         let contours = path.flatten(&map, tolerance);
         prop_assert!(contours.points.iter().all(|p| p.is_finite()));
         prop_assume!(corners.iter().all(|&w| w > 0.05));
-        prop_assert_eq!(contours.len(), 1);
+        // A curve that is as good as straight encloses nothing.
+        let ends = [map.project(p0).unwrap(), map.project(p3).unwrap()];
+        let polygon = if contours.is_empty() { &ends[..] } else { &contours.points };
         for i in 0..=200 {
             let t = f64::from(i) / 200.0;
             let s = 1.0 - t;
             let p = p0 * (s * s * s) + p1 * (3.0 * s * s * t) + p2 * (3.0 * s * t * t) + p3 * (t * t * t);
             let image = map.project(p).unwrap();
-            prop_assert!(distance_to(&contours.points, image) <= tolerance + 1e-9);
+            prop_assert!(distance_to(polygon, image) <= tolerance + 1e-9);
         }
     }
 

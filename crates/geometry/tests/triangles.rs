@@ -245,6 +245,32 @@ proptest! {
     }
 
     #[test]
+    fn nested_rings_are_exact(
+        r in prop::collection::vec(0.0..1.0f64, 36..90),
+        reverse in prop::array::uniform3(any::<bool>()), shear in -3.0..3.0f64, side in any::<bool>(),
+    ) {
+        // Three rings, each within a band of radii of its own: splits and merges in all orders.
+        let parts = [&r[..12], &r[12..24], &r[24..]];
+        let bands = [(22.0, 8.0), (12.0, 6.0), (1.0, 7.0)];
+        let rings: Vec<Vec<DVec2>> = (0..3)
+            .map(|k| {
+                let (least, range) = bands[k];
+                let mut ring = star(parts[k].len(), v(3.0, 4.0), |i| least + range * parts[k][i]);
+                if reverse[k] {
+                    ring.reverse();
+                }
+                let turned = |p: DVec2| if side { v(p.y, p.x) } else { p };
+                ring.into_iter().map(|p| turned(v(p.x + shear * p.y, p.y))).collect()
+            })
+            .collect();
+        for rule in RULES {
+            let result = Result::of(&rings, rule);
+            prop_assert!(result.reuses_vertices());
+            result.assert_exact();
+        }
+    }
+
+    #[test]
     fn coarse_random_polygons_are_sound(
         p in prop::collection::vec((-5..6i32, -5..6i32), 3..24), split in 1..24usize,
     ) {
@@ -261,6 +287,22 @@ proptest! {
         let points: Vec<DVec2> = p.iter().map(|&(x, y)| v(x, y)).collect();
         for rule in RULES {
             Result::of(std::slice::from_ref(&points), rule).assert_sound();
+        }
+    }
+
+    #[test]
+    fn whole_pixels_move_the_triangles_and_change_none(
+        p in prop::collection::vec((-2000..2000i32, -2000..2000i32), 3..12),
+        x in -1000..1000i32, y in -1000..1000i32,
+    ) {
+        let points: Vec<DVec2> = p.iter().map(|&(x, y)| v(f64::from(x), f64::from(y)) / 256.0).collect();
+        let step = v(f64::from(x), f64::from(y));
+        let moved: Vec<DVec2> = points.iter().map(|&p| p + step).collect();
+        for rule in RULES {
+            let here = triangulate([&points[..]], rule);
+            let there = triangulate([&moved[..]], rule);
+            let expected: Vec<[DVec2; 3]> = here.iter().map(|t| t.map(|p| p + step)).collect();
+            prop_assert_eq!(&there, &expected);
         }
     }
 

@@ -69,16 +69,16 @@ impl Covariance {
     /// Whether [`Covariance::mend`] has anything to do, or might.
     #[inline(always)]
     pub(crate) fn needs_mending(&self, most: [f64; 2], limits: &Limits) -> bool {
-        // The minor variance is at least det/(uu + vv).
-        let [u, v] = most;
-        (self.det < LEAST_VARIANCE * (self.uu + self.vv))
+        // The minor variance lies between det/(uu + vv) and twice that.
+        let sum = self.uu + self.vv;
+        let most = most[0].max(most[1]);
+        (self.det < LEAST_VARIANCE * sum)
             | (self.det > limits.most_det)
-            | (self.uu * limits.radius_squared > u * u)
-            | (self.vv * limits.radius_squared > v * v)
+            | (2.0 * limits.radius_squared * self.det > most * most * sum)
     }
 
     /// Brings the rare ellipse within bounds: not thinner than a texel, not larger than the budget,
-    /// not reaching farther than `most` along each axis of the level.
+    /// its minor axis not reaching farther than `most` of the level.
     pub(crate) fn mend(self, most: [f64; 2], limits: &Limits) -> Self {
         self.floored().within_area(limits).within_level(most, limits)
     }
@@ -114,18 +114,19 @@ impl Covariance {
         Self { uu: self.uu * k, uv: self.uv * k, vv: self.vv * k, det: limits.most_det }
     }
 
-    /// Squeezes along each axis so that the ellipse's half-width there is at most `most`.
+    /// Shrinks, keeping the shape, so that half the minor axis is at most the larger `most`: what
+    /// spans a level in every direction averages all of it, however much farther it reaches. A long
+    /// thin ellipse keeps its length: where a texture repeats, it crosses it again and again at
+    /// other places, and cut to one crossing it would alias.
     fn within_level(self, most: [f64; 2], limits: &Limits) -> Self {
-        let squeeze = |variance: f64, most: f64| {
-            let reach = limits.radius_squared * variance;
-            if reach > most * most { most / sqrt(reach) } else { 1.0 }
-        };
-        let (ku, kv) = (squeeze(self.uu, most[0]), squeeze(self.vv, most[1]));
-        Self {
-            uu: self.uu * ku * ku,
-            uv: self.uv * ku * kv,
-            vv: self.vv * kv * kv,
-            det: self.det * ku * ku * kv * kv,
+        let (x, y) = (self.uu - self.vv, 2.0 * self.uv);
+        let major = 0.5 * (self.uu + self.vv + sqrt(x * x + y * y));
+        let reach = limits.radius_squared * self.det / major;
+        let most = most[0].max(most[1]);
+        if reach <= most * most {
+            return self;
         }
+        let k = most * most / reach;
+        Self { uu: self.uu * k, uv: self.uv * k, vv: self.vv * k, det: self.det * k * k }
     }
 }

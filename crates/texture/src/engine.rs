@@ -27,6 +27,10 @@ impl Engine for Scalar {
 impl<S: Simd> Engine for Vector<S> {
     #[inline(always)]
     fn walk(self, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
-        crate::walk_simd::walk(self.0, level, wrap, w)
+        // A function of its own, compiled once for the instruction set.
+        self.0.vectorize(
+            #[inline(always)]
+            || crate::walk_simd::walk(self.0, level, wrap, w),
+        )
     }
 }

@@ -6,7 +6,6 @@ use crate::lod::{self, Pick, half_octaves};
 use crate::math::{floor, floor32, sqrt32};
 use crate::point::lerp;
 use crate::walk::Walk;
-use crate::wrap::FAR;
 use crate::{Footprint, LevelMode, Sampler, Texture};
 use scumble_geometry::Matrix2;
 
@@ -32,6 +31,8 @@ pub(crate) struct Limits {
     /// The determinant of the largest ellipse.
     pub(crate) most_det: f64,
     pub(crate) blend: bool,
+    /// ½R²: weights whose exponent is above it are 0.
+    pub(crate) cut: f32,
 }
 
 impl Limits {
@@ -51,18 +52,58 @@ impl Limits {
             inverse_least: 1.0 / (least * least),
             most_det: axes * axes,
             blend: s.blend,
+            cut: (0.5 * radius * radius) as f32,
         }
     }
 }
 
-/// Whether every component is within what the formulas hold.
-#[inline(always)]
-pub(crate) fn is_usable(j: &Matrix2) -> bool {
-    // A comparison with NaN is false.
-    (j.a.abs() <= FAR) & (j.b.abs() <= FAR) & (j.c.abs() <= FAR) & (j.d.abs() <= FAR)
+/// The levels to read for a footprint and what its ellipses are made of. The centre has been brought
+/// near, the Jacobian is bounded.
+struct Plan<'a> {
+    t: &'a Texture,
+    f: &'a Footprint,
+    limits: &'a Limits,
+    pick: Pick,
+    /// The ellipse in level 0, where the levels come from it.
+    sigma: Option<Covariance>,
 }
 
-/// The colour of one footprint whose centre has been reduced and whose Jacobian is usable.
+impl<'a> Plan<'a> {
+    #[inline(always)]
+    fn new(t: &'a Texture, f: &'a Footprint, mode: LevelMode, limits: &'a Limits) -> Self {
+        if mode != LevelMode::Auto {
+            let pick = lod::pick(f, mode, t.levels.len());
+            return Self { t, f, limits, pick, sigma: None };
+        }
+        let (sigma, minor) = Covariance::of(&f.jacobian, limits.inverse_ratio);
+        let pick = auto_pick(minor * limits.inverse_least, t.levels.len() - 1, limits.blend);
+        Self { t, f, limits, pick, sigma: Some(sigma) }
+    }
+
+    /// The walk in one of the levels.
+    #[inline(always)]
+    fn walk(&self, index: usize) -> Walk {
+        let level = &self.t.levels[index];
+        let sigma = match self.sigma {
+            Some(sigma) => sigma.at_level(level.scale, level.blurred),
+            None => {
+                // The footprint rescaled, as if that level were the texture.
+                let [su, sv] = level.scale;
+                let Matrix2 { a, b, c, d } = self.f.jacobian;
+                let jacobian = Matrix2::new(a * su, b * su, c * sv, d * sv);
+                Covariance::of(&jacobian, self.limits.inverse_ratio).0
+            }
+        };
+        walk_in(self.t, index, self.f.u, self.f.v, sigma, self.limits)
+    }
+
+    #[inline(always)]
+    fn filter(&self, engine: impl Engine, index: usize) -> [f32; 4] {
+        engine.walk(&self.t.levels[index], self.t.wrap, &self.walk(index))
+    }
+}
+
+/// The colour of one footprint, its centre brought near and its Jacobian bounded.
 #[inline(always)]
 pub(crate) fn sample(
     t: &Texture,
@@ -71,48 +112,17 @@ pub(crate) fn sample(
     mode: LevelMode,
     limits: &Limits,
 ) -> [f32; 4] {
-    let (pick, sigma) = plan(t, f, mode, limits);
-    let at = |index: usize| {
-        let w = walk_in(t, index, f, sigma(index), limits);
-        engine.walk(&t.levels[index], t.wrap, &w)
-    };
-    let fine = at(pick.level);
-    if pick.coarser > 0.0 { lerp(fine, at(pick.level + 1), pick.coarser) } else { fine }
+    let plan = Plan::new(t, f, mode, limits);
+    let Pick { level, coarser } = plan.pick;
+    let fine = plan.filter(engine, level);
+    if coarser > 0.0 { lerp(fine, plan.filter(engine, level + 1), coarser) } else { fine }
 }
 
 /// Texels that [`sample`] reads.
 pub(crate) fn cost(t: &Texture, f: &Footprint, mode: LevelMode, limits: &Limits) -> usize {
-    let (pick, sigma) = plan(t, f, mode, limits);
-    let at = |index: usize| walk_in(t, index, f, sigma(index), limits).texels();
-    at(pick.level) + if pick.coarser > 0.0 { at(pick.level + 1) } else { 0 }
-}
-
-/// The levels to read and the ellipse in each.
-#[inline(always)]
-fn plan<'a>(
-    t: &'a Texture,
-    f: &'a Footprint,
-    mode: LevelMode,
-    limits: &'a Limits,
-) -> (Pick, impl Fn(usize) -> Covariance + 'a) {
-    let auto = mode == LevelMode::Auto;
-    let (sigma, minor) = Covariance::of(&f.jacobian, limits.inverse_ratio);
-    let pick = if auto {
-        auto_pick(minor * limits.inverse_least, t.levels.len() - 1, limits.blend)
-    } else {
-        lod::pick(f, mode, t.levels.len())
-    };
-    let at = move |index: usize| {
-        let level = &t.levels[index];
-        if auto {
-            return sigma.at_level(level.scale, level.blurred);
-        }
-        // The footprint rescaled, as if that level were the texture.
-        let [su, sv] = level.scale;
-        let Matrix2 { a, b, c, d } = f.jacobian;
-        Covariance::of(&Matrix2::new(a * su, b * su, c * sv, d * sv), limits.inverse_ratio).0
-    };
-    (pick, at)
+    let plan = Plan::new(t, f, mode, limits);
+    let Pick { level, coarser } = plan.pick;
+    plan.walk(level).texels() + if coarser > 0.0 { plan.walk(level + 1).texels() } else { 0 }
 }
 
 /// The level where σ of the minor axis is between s and 2s, from V₂/s², and how much of the next.
@@ -130,14 +140,21 @@ pub(crate) fn auto_pick(minor: f64, last: usize, blend: bool) -> Pick {
 
 /// The walk over an ellipse, given in texels of the level.
 #[inline(always)]
-fn walk_in(t: &Texture, index: usize, f: &Footprint, sigma: Covariance, limits: &Limits) -> Walk {
+pub(crate) fn walk_in(
+    t: &Texture,
+    index: usize,
+    u: f64,
+    v: f64,
+    sigma: Covariance,
+    limits: &Limits,
+) -> Walk {
     let level = &t.levels[index];
     let mended = if sigma.needs_mending(level.most, limits) {
         sigma.mend(level.most, limits)
     } else {
         sigma
     };
-    Outline::new(f.u, f.v, level.scale, &mended, limits).walk()
+    Outline::new(u, v, level.scale, &mended, limits).walk()
 }
 
 /// The numbers of a [`Walk`] before any of them is made whole: no branch and no integer, so that a
@@ -149,7 +166,7 @@ pub(crate) struct Outline {
     pub(crate) fx: f32,
     pub(crate) fy: f32,
     pub(crate) first: f32,
-    pub(crate) last: f32,
+    pub(crate) rise: f32,
     pub(crate) run: f32,
     pub(crate) slope: f32,
     pub(crate) row_scale: f32,
@@ -174,19 +191,19 @@ impl Outline {
         let (uv, vv, det) = (sigma.uv as f32, sigma.vv as f32, sigma.det as f32);
         let inverse_vv = 1.0 / vv;
         // Half-widths: R√Σvv over the rows, R√(det/Σvv) along any one row.
-        let rows = limits.radius * sqrt32(vv);
+        let rise = limits.radius * sqrt32(vv);
         Self {
             x0,
             y0,
             fx,
             fy,
-            first: -floor32(rows - fy),
-            last: floor32(rows + fy),
+            first: -floor32(rise - fy),
+            rise,
             run: limits.radius * sqrt32(det * inverse_vv),
             slope: uv * inverse_vv,
             row_scale: 0.5 * inverse_vv,
             run_scale: 0.5 * (vv / det),
-            cut: 0.5 * (limits.radius * limits.radius),
+            cut: limits.cut,
         }
     }
 
@@ -199,7 +216,7 @@ impl Outline {
             fx: self.fx,
             fy: self.fy,
             first: self.first as i32,
-            last: self.last as i32,
+            rise: self.rise,
             run: self.run,
             slope: self.slope,
             row_scale: self.row_scale,

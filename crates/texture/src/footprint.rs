@@ -1,3 +1,4 @@
+use crate::wrap::FAR;
 use scumble_geometry::{DVec2, Homography, Matrix2};
 
 /// What a pixel sees of a texture: a place and how the texture runs under the pixel there.
@@ -40,6 +41,20 @@ impl Footprint {
     #[must_use]
     pub const fn point(u: f64, v: f64) -> Self {
         Self { u, v, jacobian: Matrix2::new(0.0, 0.0, 0.0, 0.0) }
+    }
+
+    /// Whether the centre is finite.
+    #[inline(always)]
+    pub(crate) fn is_finite(&self) -> bool {
+        (self.u.abs() < f64::INFINITY) & (self.v.abs() < f64::INFINITY)
+    }
+
+    /// Whether every component of the Jacobian is within what the formulas hold.
+    #[inline(always)]
+    pub(crate) fn is_bounded(&self) -> bool {
+        // A comparison with NaN is false.
+        let Matrix2 { a, b, c, d } = self.jacobian;
+        (a.abs() <= FAR) & (b.abs() <= FAR) & (c.abs() <= FAR) & (d.abs() <= FAR)
     }
 
     /// The square of the longer column of the Jacobian: how far, in texels, a step of one pixel

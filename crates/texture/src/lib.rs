@@ -47,6 +47,7 @@
 
 extern crate alloc;
 
+mod batch;
 mod covariance;
 mod decimate;
 mod engine;

@@ -4,7 +4,7 @@ use crate::math::log2;
 use crate::{Footprint, LevelMode};
 
 /// One or two neighbouring levels.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Pick {
     /// The finer level.
     pub(crate) level: usize,

@@ -24,9 +24,10 @@ pub(crate) struct Walk {
     /// The rest of the centre, in [0, 1].
     pub(crate) fx: f32,
     pub(crate) fy: f32,
-    /// First and last row, relative to y0.
+    /// First row, relative to y0.
     pub(crate) first: i32,
-    pub(crate) last: i32,
+    /// Half the ellipse's height.
+    pub(crate) rise: f32,
     /// Half the ellipse's width along its widest row (any row through its centre).
     pub(crate) run: f32,
     /// Σuv/Σvv: how the middle moves from row to row.
@@ -41,16 +42,23 @@ pub(crate) struct Walk {
 
 impl Walk {
     /// Groups of [`LANES`] texels that cover the widest row; every row reads as many. Weights
-    /// outside the ellipse are 0, and a fixed count is cheaper than exact ends.
+    /// outside the ellipse are 0, and a fixed count is cheaper than exact ends: it depends on the
+    /// ellipse but not on where in a texel its centre lies, so neighbouring pixels agree on it and
+    /// the processor can predict it.
     #[inline(always)]
     pub(crate) fn groups(&self) -> usize {
-        let texels = floor32(2.0 * self.run) as usize + 1;
-        texels.div_ceil(LANES)
+        groups(self.run)
+    }
+
+    /// Blocks of [`LANES`] rows, by the same reasoning.
+    #[inline(always)]
+    pub(crate) fn blocks(&self) -> usize {
+        groups(self.rise)
     }
 
     /// Texels that the walk reads.
     pub(crate) fn texels(&self) -> usize {
-        (self.last - self.first + 1).max(0) as usize * self.groups() * LANES
+        self.blocks() * self.groups() * LANES * LANES
     }
 
     /// The texel nearest to the centre. What is summed is the difference from it, so that a
@@ -72,9 +80,10 @@ impl Walk {
             let middle = self.fx + self.slope * (j as f32 - self.fy);
             self.x0 + (floor32(middle - self.run) + 1.0) as i64
         };
-        let (a, b) = (start(self.first), start(self.last));
+        let last = self.first + (self.blocks() * LANES) as i32 - 1;
+        let (a, b) = (start(self.first), start(last));
         let end = a.max(b) + (self.groups() * LANES) as i64;
-        let (top, bottom) = (self.y0 + i64::from(self.first), self.y0 + i64::from(self.last));
+        let (top, bottom) = (self.y0 + i64::from(self.first), self.y0 + i64::from(last));
         (a.min(b) >= 0) & (end <= level.width as i64) & (top >= 0) & (bottom < level.height as i64)
     }
 
@@ -84,6 +93,12 @@ impl Walk {
         let y = wrap.resolve(self.y0 + i64::from(j), level.height);
         Row { texels: y.map(|y| level.row(y)), wrap }
     }
+}
+
+/// How many groups of [`LANES`] hold every whole number in any interval of that half-width.
+#[inline(always)]
+fn groups(half: f32) -> usize {
+    (floor32(2.0 * half) as usize + 1).div_ceil(LANES)
 }
 
 /// A row of a level, or of the constant outside it.
@@ -125,13 +140,10 @@ pub(crate) fn walk(level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
     let centre = w.centre(level, wrap);
     let mut sums = [[0.0f32; 4]; LANES];
     let mut weights = [[0.0f32; LANES]; LANES];
-    for block in (w.first..=w.last).step_by(LANES) {
+    for block in 0..w.blocks() {
         for k in 0..w.groups() {
             for (r, totals) in weights.iter_mut().enumerate() {
-                let j = block + r as i32;
-                if j > w.last {
-                    break;
-                }
+                let j = w.first + (block * LANES + r) as i32;
                 let dv = j as f32 - w.fy;
                 let e = w.row_scale * (dv * dv);
                 let middle = w.fx + w.slope * dv;

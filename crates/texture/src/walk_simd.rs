@@ -52,14 +52,13 @@ fn sum<S: Simd>(
     let mut sums = f32x16::splat(simd, 0.0);
     let mut weights = sums;
     let groups = w.groups();
-    let mut j = w.first;
-    while j <= w.last {
+    for block in 0..w.blocks() {
+        let j = w.first + (block * LANES) as i32;
         let dv = (rows + j as f32) - w.fy;
         let e = (dv * dv) * w.row_scale;
         let middle = dv * w.slope + w.fx;
         let start = (middle - w.run).floor() + 1.0;
         let starts = start.to_int::<i32x16<S>>().to_array();
-        let count = (w.last - j + 1).min(LANES as i32);
         for k in 0..groups as i32 {
             let dx = (start + (columns + (k * LANES as i32) as f32)) - middle;
             let e = e + (dx * dx) * w.run_scale;
@@ -67,14 +66,13 @@ fn sum<S: Simd>(
             weights = weights + weight;
             let (ab, cd) = weight.split();
             let ((a, b), (c, d)) = (ab.split(), cd.split());
-            for (r, weight) in (0..count).zip([a, b, c, d]) {
+            for (r, weight) in (0..LANES as i32).zip([a, b, c, d]) {
                 let x = starts[r as usize * LANES] + k * LANES as i32;
                 if let Some(run) = fetch(j + r, x) {
                     sums = sums + expand(weight) * (run - centres);
                 }
             }
         }
-        j += LANES as i32;
     }
     let total = fold(weights).to_array();
     let total = (total[0] + total[2]) + (total[1] + total[3]);

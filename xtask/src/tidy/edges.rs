@@ -35,7 +35,7 @@ const fn library(
 }
 
 const ROOMS: [Room; 12] = [
-    library("scumble-geometry", &[], &["glam", "kurbo"]),
+    library("scumble-geometry", &[], &["glam"]),
     library("scumble-pixel", &[], &[]),
     library("scumble-coverage", &["scumble-geometry"], &["fearless_simd", "glam"]),
     library(

@@ -9,7 +9,7 @@ const ODD: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="10" height="
 
 fn parse(out: &[u8]) -> Value {
     assert_eq!(out.iter().filter(|&&b| b == b'\n').count(), 1, "one line");
-    serde_json::from_slice(out).unwrap()
+    serde_json::from_slice(out).expect("JSON")
 }
 
 #[test]

@@ -8,6 +8,7 @@
 
 use super::rows::{PolygonScratch, Rows};
 use super::{Polygon, PolygonEdge};
+use crate::traversal::emit;
 use crate::{SampleMask, SamplePattern, Sink};
 use alloc::vec::Vec;
 use scumble_geometry::IntRect;
@@ -52,6 +53,22 @@ impl Polygon {
             let strip = IntRect { x0: x, x1: end, ..region };
             Strip { polygon: self, rect: strip, pattern }.rasterize(scratch, sink);
             x = end;
+        }
+    }
+
+    /// The definition: the winding number of every sample by itself, from all edges.
+    pub(crate) fn test_each(&self, region: IntRect, pattern: &SamplePattern, sink: &mut impl Sink) {
+        for y in region.y0..region.y1 {
+            for x in region.x0..region.x1 {
+                let mut mask = 0;
+                for (s, o) in pattern.offsets().iter().enumerate() {
+                    let (sx, sy) = (x * 256 + i32::from(o[0]), y * 256 + i32::from(o[1]));
+                    let left = |e: &&PolygonEdge| e.y0 <= sy && sy < e.y1 && e.crossing(sy) <= sx;
+                    let winding = self.edges.iter().filter(left).map(|e| e.winding).sum();
+                    mask |= u64::from(self.is_inside(winding)) << s;
+                }
+                emit(sink, pattern, (x, y), SampleMask(mask));
+            }
         }
     }
 }

@@ -7,6 +7,10 @@ use alloc::vec::Vec;
 /// How often an arc is halved at most: a semicircle becomes at most 1024 chords.
 const MAX_ARC_DEPTH: u32 = 10;
 
+/// The size of an outline beyond which round joins and caps are drawn straight, to bound time and
+/// memory on hostile input.
+const MAX_ROUND_POINTS: usize = 1 << 22;
+
 /// Draws the outlines of chains.
 ///
 /// A chain's outline runs along its left side and back along its right side. At a join the outer
@@ -134,7 +138,8 @@ impl<'a> Outliner<'a> {
     /// close that chords can stand for the arc.
     fn arc(&self, n0: DVec2, n1: DVec2, clockwise: bool, depth: u32, push: &mut dyn FnMut(DVec2)) {
         let cosine = n0.dot(n1);
-        if depth >= MAX_ARC_DEPTH || cosine >= self.least_cosine {
+        let points = self.out.elements().len() + self.left.len() + self.right.len();
+        if depth >= MAX_ARC_DEPTH || cosine >= self.least_cosine || points >= MAX_ROUND_POINTS {
             return;
         }
         // The sum of the two vanishes as they come to oppose each other, their difference does

@@ -30,8 +30,13 @@ pub(super) fn rewrite(
         let (item, tail) = rest.split_at(end);
         let mut tail_chars = tail.chars();
         let delimiter = tail_chars.next();
+        rest = tail_chars.as_str();
         if depth > 0 && matches!(delimiter, None | Some(';' | '}')) {
-            declaration(item, &mut judge, &mut out);
+            let kept = declaration(item, &mut judge, &mut out);
+            // Empty declarations are allowed, but not every parser knows.
+            if !kept && delimiter == Some(';') {
+                continue;
+            }
         } else {
             out.push_str(item);
         }
@@ -41,23 +46,34 @@ pub(super) fn rewrite(
             _ => {}
         }
         out.extend(delimiter);
-        rest = tail_chars.as_str();
     }
     out
 }
 
-fn declaration(item: &str, judge: &mut impl FnMut(&str, &str) -> Verdict, out: &mut String) {
+/// Copies a declaration as it is judged; `false` if nothing is left of it.
+fn declaration(
+    item: &str,
+    judge: &mut impl FnMut(&str, &str) -> Verdict,
+    out: &mut String,
+) -> bool {
     let Some((name, value)) = item.split_once(':') else {
         out.push_str(item);
-        return;
+        return !item.trim().is_empty();
     };
     let (plain, important) = split_important(value);
     match judge(&name.trim().to_ascii_lowercase(), plain.trim()) {
         Verdict::Keep => out.push_str(item),
-        Verdict::Drop => {}
         Verdict::Replace(value) => out.extend([name, ":", &value, important]),
         Verdict::Weaken => out.extend([name, ":", plain]),
+        Verdict::Drop => return false,
     }
+    true
+}
+
+/// Puts declarations in front of others, where they are read even if those make no sense.
+pub(super) fn prepend(css: &mut String, declarations: &str) {
+    css.insert_str(0, declarations);
+    css.insert(declarations.len(), ';');
 }
 
 /// A value, and the `!important` behind it.
@@ -112,7 +128,8 @@ mod tests {
 
     #[test]
     fn declarations_are_found_and_nothing_else() {
-        assert_eq!(upper("x:a; y:b; z:c", true), "x:A; z:c".replace("; z", ";; z"));
+        assert_eq!(upper("x:a; y:b; z:c", true), "x:A; z:c");
+        assert_eq!(upper(";x:a;;y:b", true), "x:A;");
         assert_eq!(upper("X : a !important", true), "X :A!important");
         assert_eq!(upper("a:hover{x:b}", false), "a:hover{x:B}");
         assert_eq!(upper("@media (x:1){ p{x:url(a;b)} }", false), "@media (x:1){ p{x:URL(A;B)} }");

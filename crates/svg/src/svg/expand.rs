@@ -5,8 +5,8 @@ use crate::Limits;
 use crate::course::href;
 use crate::error::{ErrorKind, Fault};
 use crate::extension::svg_name;
-use roxmltree::{Node, NodeId};
-use std::collections::{HashMap, HashSet};
+use roxmltree::Node;
+use std::collections::HashMap;
 
 /// usvg works with recursion; deeper than this, a thread of 2 MiB may not be enough for it.
 const MAX_DEPTH: usize = 512;
@@ -76,9 +76,20 @@ pub(super) fn is_dropped(name: &str) -> bool {
 
 struct Graph<'a, 'input> {
     by_id: HashMap<&'a str, Node<'a, 'input>>,
-    weights: HashMap<NodeId, Weight>,
+    /// By node: nothing for one that was not met yet.
+    states: Vec<State>,
     /// Whether a style sheet may put markers on any shape.
     all_marked: bool,
+}
+
+/// How far the weighing of an element is.
+#[derive(Debug, Clone, Copy, Default)]
+enum State {
+    #[default]
+    Unseen,
+    /// On the way from the root to the element at work: meeting it again is recursion.
+    Open,
+    Weighed(Weight),
 }
 
 /// An element whose inside is being weighed.
@@ -99,49 +110,42 @@ impl<'a, 'input> Graph<'a, 'input> {
             }
         }
         let all_marked = style_sheets(root).any(marks_vertices);
-        Self { by_id, weights: HashMap::new(), all_marked }
+        // Nodes are numbered from the document on, without gaps.
+        let last = root.document().descendants().next_back().map_or(0, |n| n.id().get_usize());
+        Self { by_id, states: vec![State::Unseen; last + 1], all_marked }
     }
 
     /// The weight of `root`, depth first with an explicit stack.
     fn weigh(mut self, root: Node<'a, 'input>) -> Result<Weight, Fault> {
-        // Elements on the way from the root to the one at work: meeting one again is recursion.
-        let mut on_path = HashSet::from([root.id()]);
         let mut stack = vec![self.open(root, false)];
         let mut total = Weight::default();
         while let Some(top) = stack.last_mut() {
-            let child = match top.next {
-                Some(child) => {
-                    top.next = child.next_sibling();
-                    child
+            let Some(child) = top.next_inside() else {
+                let Open { node, weight, .. } = *top;
+                self.states[node.id().get_usize()] = State::Weighed(weight);
+                stack.pop();
+                match stack.last_mut() {
+                    Some(parent) => parent.add(weight),
+                    None => total = weight,
                 }
-                None => match top.target.take() {
-                    Some(target) => target,
-                    None => {
-                        let Open { node, weight, .. } = *top;
-                        on_path.remove(&node.id());
-                        self.weights.insert(node.id(), weight);
-                        stack.pop();
-                        match stack.last_mut() {
-                            Some(parent) => parent.add(weight),
-                            None => total = weight,
-                        }
-                        continue;
-                    }
-                },
+                continue;
             };
             if !child.is_element() {
                 continue;
             }
-            if let Some(&weight) = self.weights.get(&child.id()) {
-                top.add(weight);
-                continue;
-            }
-            if !on_path.insert(child.id()) {
-                let kind = ErrorKind::Element {
-                    element: "use".into(),
-                    message: "it refers to itself, directly or through others".into(),
-                };
-                return Err(Fault::at(top.node.range().start, kind));
+            match self.states[child.id().get_usize()] {
+                State::Unseen => {}
+                State::Weighed(weight) => {
+                    top.add(weight);
+                    continue;
+                }
+                State::Open => {
+                    let kind = ErrorKind::Element {
+                        element: "use".into(),
+                        message: "it refers to itself, directly or through others".into(),
+                    };
+                    return Err(Fault::at(top.node.range().start, kind));
+                }
             }
             let marked = top.marked;
             stack.push(self.open(child, marked));
@@ -149,7 +153,8 @@ impl<'a, 'input> Graph<'a, 'input> {
         Ok(total)
     }
 
-    fn open(&self, node: Node<'a, 'input>, outer_marked: bool) -> Open<'a, 'input> {
+    fn open(&mut self, node: Node<'a, 'input>, outer_marked: bool) -> Open<'a, 'input> {
+        self.states[node.id().get_usize()] = State::Open;
         let name = svg_name(node).unwrap_or_default();
         let marked = outer_marked
             || self.all_marked
@@ -169,7 +174,14 @@ impl<'a, 'input> Graph<'a, 'input> {
     }
 }
 
-impl Open<'_, '_> {
+impl<'a, 'input> Open<'a, 'input> {
+    /// The next of the children, and at last what a `use` refers to.
+    fn next_inside(&mut self) -> Option<Node<'a, 'input>> {
+        let Some(child) = self.next else { return self.target.take() };
+        self.next = child.next_sibling();
+        Some(child)
+    }
+
     /// Takes in what one inside weighs. Under our markers all its vertices count as marked, even
     /// if it was weighed elsewhere.
     fn add(&mut self, inner: Weight) {

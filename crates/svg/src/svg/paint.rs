@@ -86,8 +86,8 @@ const MAX_DASHES: f64 = 100_000.0;
 pub(super) fn limit_dashes(style: &mut StrokeStyle, path: &Path) -> bool {
     let period: f64 = style.dashes.iter().sum();
     let count = control_length(path) / period * style.dashes.len() as f64;
-    // Written so that NaN, from a period of zero or a length beyond numbers, counts as too many.
-    let too_many = !style.dashes.is_empty() && !(count <= MAX_DASHES);
+    // NaN comes from a length beyond numbers.
+    let too_many = !style.dashes.is_empty() && (count.is_nan() || count > MAX_DASHES);
     if too_many {
         style.dashes.clear();
     }

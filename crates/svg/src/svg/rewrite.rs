@@ -2,16 +2,16 @@
 
 use super::placeholder::{self, Leaf, LeafKind, LocalMap, Placeholders};
 use super::sheet::{self, InlineStyle, affine_text, placeholder_text, read_transform};
-use super::{origin, quad};
+use super::{css, origin, quad};
 use crate::course::href;
 use crate::error::{ErrorKind, Fault};
 use crate::extension::{ColorTriangle, TexturedTriangle, Textures, svg_name};
 use crate::images::Images;
+use crate::numbers;
 use crate::warning::Warnings;
 use roxmltree::Node;
 use scumble_geometry::{Affine, DVec2, Homography};
 use scumble_scene::ImageWrap;
-use std::collections::HashMap;
 
 /// The outcome of the first pass.
 pub(super) struct Rewritten {
@@ -21,8 +21,8 @@ pub(super) struct Rewritten {
     pub(super) textures: Textures,
     /// Whether the root says how large it is.
     pub(super) has_size: bool,
-    /// Where each gradient stands, by its id, in bytes.
-    pub(super) gradients: HashMap<String, usize>,
+    /// Where the first gradient stands, in bytes.
+    pub(super) gradient: Option<usize>,
     /// Where the first nested viewport stands.
     pub(super) viewport: Option<usize>,
 }
@@ -41,7 +41,7 @@ pub(super) fn rewrite(
             placeholders: Placeholders::default(),
             textures,
             has_size: has_size(root),
-            gradients: HashMap::new(),
+            gradient: None,
             viewport: None,
         },
     };
@@ -51,17 +51,20 @@ pub(super) fn rewrite(
 
 /// Whether `viewBox`, or both sides in absolute units, are there.
 fn has_size(root: Node<'_, '_>) -> bool {
-    let absolute = |name| root.attribute(name).is_some_and(|v| !v.contains('%'));
+    let absolute = |name| {
+        let text: Option<&str> = root.attribute::<&str>(name);
+        text.is_some_and(|v| numbers::leading(v).is_some() && !v.contains('%'))
+    };
     root.has_attribute("viewBox") || (absolute("width") && absolute("height"))
 }
 
 /// Properties that keep markers away, whatever a style sheet says.
 const NO_MARKERS: &str =
-    "marker-start:none!important;marker-mid:none!important;marker-end:none!important;";
+    "marker-start:none!important;marker-mid:none!important;marker-end:none!important";
 
 /// Properties that keep a placeholder whole, whatever it would inherit.
 const PLACEHOLDER_STYLE: &str = "fill:#000!important;stroke:none!important;\
-    marker-start:none!important;marker-mid:none!important;marker-end:none!important;";
+    marker-start:none!important;marker-mid:none!important;marker-end:none!important";
 
 /// What is written for an element that usvg must not see, so that selectors still count it.
 const NOTHING: &str = "<metadata/>";
@@ -178,9 +181,7 @@ impl Writer<'_, '_> {
                 Plan::Element
             }
             "linearGradient" | "radialGradient" => {
-                if let Some(id) = node.attribute("id") {
-                    self.out.gradients.entry(id.to_owned()).or_insert(offset);
-                }
+                self.out.gradient.get_or_insert(offset);
                 Plan::Element
             }
             "g" | "a" | "defs" | "switch" | "use" | "rect" | "circle" | "ellipse" | "line"
@@ -247,16 +248,16 @@ impl Writer<'_, '_> {
         self.attributes(node, tag, in_marker, leaf.is_some());
         if !wrapped && !transform.text.is_empty() {
             if transform.from_style {
-                inline.declare(&format!("transform:{}", transform.text));
+                css::prepend(&mut inline.css, &format!("transform:{}", transform.text));
             } else {
                 push_attribute(&mut self.out.xml, "transform", &transform.text);
             }
         }
         if let Some(index) = leaf {
             push_attribute(&mut self.out.xml, "d", &placeholder::leaf_path(index));
-            inline.declare(PLACEHOLDER_STYLE);
+            css::prepend(&mut inline.css, PLACEHOLDER_STYLE);
         } else if in_marker || tag == "marker" {
-            inline.declare(NO_MARKERS);
+            css::prepend(&mut inline.css, NO_MARKERS);
         }
         if !inline.css.is_empty() {
             push_attribute(&mut self.out.xml, "style", &inline.css);
@@ -314,7 +315,7 @@ impl Writer<'_, '_> {
         if text.is_none() && quad.is_none() {
             // The origin may belong to a transform in a style sheet.
             if let Some(origin) = origin {
-                inline.declare(&format!("transform-origin:{origin}"));
+                css::prepend(&mut inline.css, &format!("transform-origin:{origin}"));
             }
             return Ok(Transform::default());
         }
@@ -324,7 +325,7 @@ impl Writer<'_, '_> {
             map = self.about_origin(node, map, origin);
             if is_root {
                 // Else usvg would turn the root about its middle.
-                inline.declare("transform-origin:0 0");
+                css::prepend(&mut inline.css, "transform-origin:0 0");
             }
         }
         let affine = map.to_affine().filter(|_| quad.is_none());

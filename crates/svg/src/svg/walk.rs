@@ -196,10 +196,8 @@ impl Walker<'_, '_> {
             // None arrives here: the first pass puts a colour in the place of patterns.
             usvg::Paint::Pattern(_) => return Straight([0.5, 0.5, 0.5, opacity]),
         };
-        let offset = self.rewritten.gradients.get(gradient.id()).copied();
-        let name = crate::images::shorten(gradient.id());
-        let message = format!("gradient `{name}` is not drawn: its mean colour stands for it");
-        self.warnings.add(offset, message);
+        let message = "a gradient is not drawn: its mean colour stands for it";
+        self.warnings.add(self.rewritten.gradient, message);
         paint::mean_color(gradient, opacity)
     }
 
