@@ -100,16 +100,6 @@ pub(super) struct InlineStyle {
     pub(super) origin: Option<String>,
 }
 
-impl InlineStyle {
-    /// Adds a declaration. The reader of styles takes nothing that starts with a semicolon.
-    pub(super) fn declare(&mut self, declaration: &str) {
-        if !self.css.trim().is_empty() {
-            self.css.push(';');
-        }
-        self.css.push_str(declaration);
-    }
-}
-
 /// Takes a `style` attribute apart.
 pub(super) fn split_inline(
     style: &str,
