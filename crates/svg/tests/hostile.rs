@@ -116,6 +116,29 @@ fn depth_is_bounded() {
 }
 
 #[test]
+fn however_deep_the_limit_allows_the_stack_suffices() {
+    let mut limits = Limits::default();
+    limits.max_depth = 10_000;
+    for open in ["<g opacity='.5'>", "<svg width='9' height='9' viewBox='0 0 2 2'>"] {
+        let close = if open.starts_with("<g") { "</g>" } else { "</svg>" };
+        let text =
+            svg_text(&(open.repeat(505) + "<rect width='1' height='1'/>" + &close.repeat(505)));
+        let run = move || {
+            let options = Options::default().with_profile(ProfileChoice::Svg).with_limits(limits);
+            parse(text.as_bytes(), &options)
+        };
+        // What a spawned thread gets.
+        let thread = std::thread::Builder::new().stack_size(2 << 20).spawn(run).unwrap();
+        assert!(thread.join().unwrap().is_ok());
+    }
+    let deep = "<g>".repeat(600) + &"</g>".repeat(600);
+    let options = Options::default().with_limits(limits);
+    assert!(parse(svg_text(&deep).as_bytes(), &options).unwrap_err().is_limit());
+    let course = parse(course_text(&deep).as_bytes(), &options.with_profile(ProfileChoice::Course));
+    assert!(course.is_ok());
+}
+
+#[test]
 fn use_that_refers_to_itself() {
     for inside in [
         "<use id='a' href='#a'/>",
