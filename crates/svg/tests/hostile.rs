@@ -219,9 +219,35 @@ fn attributes_and_elements_without_end() {
         assert!(error(profile, &course_text(&format!("<g{attributes}/>"))).is_limit());
         assert!(error(profile, &course_text(&"<g/>".repeat(1_000_001))).is_limit());
     }
-    let rules = "p q{fill:red}".repeat(20_000);
-    let text = svg_text(&format!("<style>{rules}</style>{}", "<g/>".repeat(20_000)));
-    assert!(error(ProfileChoice::Svg, &text).is_limit());
+}
+
+#[test]
+fn selectors_that_take_forever() {
+    let many = svg_text(&format!(
+        "<style>{}</style>{}",
+        "g q{fill:red}".repeat(40_000),
+        "<g/>".repeat(40_000)
+    ));
+    let deep = svg_text(&format!(
+        "<style>nothing {} {{fill:red}}</style>{}{}",
+        "* ".repeat(20),
+        "<g>".repeat(200),
+        "</g>".repeat(200)
+    ));
+    let long =
+        svg_text(&format!("<style>{} *{{}}</style>{}", "*+".repeat(9_999), "<g/>".repeat(9_999)));
+    for text in [many, deep, long] {
+        assert!(error(ProfileChoice::Svg, &text).is_limit());
+    }
+    // What is allowed comes back in time.
+    let text = svg_text(&format!(
+        "<style>{}</style>{}{}{}",
+        "nothing * * * *{fill:red}".repeat(60),
+        "<g>".repeat(30),
+        "<g/>".repeat(100),
+        "</g>".repeat(30)
+    ));
+    assert!(bounded(move || read(ProfileChoice::Svg, &text)).is_ok());
 }
 
 #[test]
@@ -386,4 +412,73 @@ fn broken_references_of_every_kind() {
     let parsed = svg(inside);
     assert_eq!(parsed.profile, Profile::Svg);
     assert!(parsed.scene.commands.len() >= 3);
+}
+
+#[test]
+fn styles_of_every_oddity() {
+    for selector in [
+        "> g",
+        "+ g",
+        ", g",
+        "g >",
+        "g > > g",
+        "*",
+        "",
+        ":first-child",
+        ".",
+        "#",
+        "[",
+        "[a",
+        "[a=",
+        "g:",
+        "g::before",
+        "g:lang(en)",
+        ":not(g)",
+        "~ g",
+        "g ~ g",
+        "g > + g",
+        "@media",
+        "é",
+        "\\",
+        "g,,g",
+        "{",
+        "} g",
+        "!",
+        "--a",
+        "g/**/g",
+        "<!--",
+        "|g",
+        "*|g",
+        "a|b",
+        "&amp;",
+        "1",
+        "%",
+    ] {
+        for declarations in [
+            "fill:red",
+            "",
+            ":",
+            ";",
+            "fill",
+            "fill:",
+            "fill:;",
+            "a:b!important;c",
+            "*fill:red",
+            "fill:'",
+            "fill:url(",
+            "fill:(",
+            "font:x",
+            "font:",
+            "font:12px a",
+            "marker:x",
+            "{}",
+            "@a;",
+        ] {
+            let inside = format!(
+                "<style>{} {{ {declarations} }} g{{fill:blue}}</style><g><g style=\"{declarations}\"><rect width='1' height='1'/></g></g>",
+                selector.replace('<', "&lt;")
+            );
+            svg(&inside);
+        }
+    }
 }

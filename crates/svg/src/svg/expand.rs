@@ -1,6 +1,7 @@
 //! How large and deep a document becomes when `use` and markers are expanded, found without
 //! expanding them.
 
+use super::selectors;
 use crate::Limits;
 use crate::course::href;
 use crate::error::{ErrorKind, Fault};
@@ -11,8 +12,8 @@ use std::collections::HashMap;
 /// usvg works with recursion; deeper than this, a thread of 2 MiB may not be enough for it.
 const MAX_DEPTH: usize = 512;
 
-/// Selectors tried on elements, at most; a style sheet can make them rules times elements.
-const MAX_STYLE_WORK: u64 = 300_000_000;
+/// Steps for trying all selectors on all elements, at most: seconds.
+const MAX_STYLE_STEPS: u64 = 500_000_000;
 
 /// What an element costs with everything inside it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -40,9 +41,11 @@ pub(super) fn check(root: Node<'_, '_>, limits: &Limits) -> Result<(), Fault> {
     if weight.marked.saturating_mul(marker) > limits.max_elements as u64 {
         return refuse(format!("markers make it more than {} elements", limits.max_elements));
     }
-    let rules: u64 = style_sheets(root).map(|css| css.matches('{').count() as u64).sum();
-    if rules.saturating_mul(weight.elements) > MAX_STYLE_WORK {
-        return refuse(format!("{rules} style rules are too many for so many elements"));
+    let depth = weight.depth as u64;
+    let steps = style_sheets(root).map(|css| selectors::steps(css, depth));
+    let steps = steps.fold(0, u64::saturating_add).saturating_mul(weight.elements);
+    if steps > MAX_STYLE_STEPS {
+        return refuse("its style selectors could take too long for so many elements".into());
     }
     Ok(())
 }
