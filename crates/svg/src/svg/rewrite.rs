@@ -161,6 +161,7 @@ impl Writer<'_, '_> {
             "text" => Plan::Leaf(LeafKind::NotDrawn("`text` is not drawn")),
             "foreignObject" => Plan::Leaf(LeafKind::NotDrawn("`foreignObject` is not drawn")),
             "image" => self.image(node)?,
+            "style" if !matches!(node.attribute("type"), None | Some("text/css")) => Plan::Drop,
             "style" => Plan::Style,
             "pattern" => {
                 self.warnings.add(offset, "`pattern` is not drawn: mid-grey stands for it");
