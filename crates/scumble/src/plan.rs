@@ -2,7 +2,7 @@
 
 use crate::paint::{Gouraud, Paint, Textured};
 use crate::{Interpolation, Settings};
-use scumble_coverage::Shape;
+use scumble_coverage::{Cover, Shape};
 use scumble_geometry::{
     Affine, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Rect, clip_polygon, line_quad,
 };
@@ -34,6 +34,17 @@ pub(crate) struct Draw {
     pub(crate) layer: u32,
     /// The pixels of the canvas that it may touch.
     pub(crate) bounds: IntRect,
+}
+
+impl Draw {
+    /// Whether it may own a sample of a rectangle.
+    pub(crate) fn touches(&self, rect: IntRect) -> bool {
+        let inside = match &self.form {
+            Form::Shape(shape) => shape.covers(rect) != Cover::None,
+            Form::Chain(_) | Form::Pixel => true,
+        };
+        inside && !self.bounds.intersect(&rect).is_empty()
+    }
 }
 
 /// Which samples a primitive owns.
