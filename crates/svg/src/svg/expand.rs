@@ -1,7 +1,7 @@
 //! How large and deep a document becomes when `use` and markers are expanded, found without
 //! expanding them.
 
-use super::selectors;
+use super::{selectors, sheet};
 use crate::Limits;
 use crate::course::href;
 use crate::error::{ErrorKind, Fault};
@@ -52,10 +52,7 @@ pub(super) fn check(root: Node<'_, '_>, limits: &Limits) -> Result<(), Fault> {
 
 /// The texts of all `style` elements.
 fn style_sheets<'a>(root: Node<'a, '_>) -> impl Iterator<Item = &'a str> {
-    root.descendants()
-        .filter(|&n| svg_name(n) == Some("style"))
-        .flat_map(|n| n.children())
-        .filter_map(|n| n.text())
+    root.descendants().filter(|&n| svg_name(n) == Some("style")).flat_map(sheet::texts)
 }
 
 /// Elements of the largest marker.

@@ -130,7 +130,7 @@ impl Writer<'_, '_> {
             Plan::Drop => self.out.xml.push_str(NOTHING),
             Plan::Pattern => self.pattern(node),
             Plan::Style => {
-                let text: String = node.children().filter_map(|n| n.text()).collect();
+                let text: String = sheet::texts(node).collect();
                 let placeholders = &mut self.out.placeholders;
                 let css = sheet::rewrite_sheet(&text, offset, placeholders, self.warnings);
                 self.out.xml.push_str("<style>");
