@@ -266,6 +266,19 @@ fn very_many_elements_are_read() {
 }
 
 #[test]
+fn many_uses_of_a_large_texture() {
+    let texture = |filename: &str| format!("<texture texid='t' filename='{filename}'/>");
+    let large = texture(&(data_uri("image/png", &png(4, 2)) + &" ".repeat(300_000)));
+    let triangles = "<textri texid='t' points='0 0 1 0 0 1' uvs='0 0 1 0 0 1'/>".repeat(50_000);
+    let text = course_text(&(triangles + &large + &texture("a.png").repeat(50_000)));
+    for profile in BOTH {
+        let text = text.clone();
+        let parsed = bounded(move || read(profile, &text)).unwrap();
+        assert_eq!((parsed.scene.commands.len(), parsed.scene.images.len()), (50_000, 1));
+    }
+}
+
+#[test]
 fn many_kinds_of_warning_are_cut_short() {
     let inside: String = (0..5_000).map(|i| format!("<kind{i}/>")).collect();
     for profile in BOTH {
