@@ -266,6 +266,27 @@ fn very_many_elements_are_read() {
 }
 
 #[test]
+fn gradients_in_a_chain() {
+    let chain = |n: usize| -> String {
+        let link = |i: usize| {
+            format!(
+                "<linearGradient id='g{i}' href='#g{}'/><rect width='1' height='1' fill='url(#g{i})'/>",
+                i + 1
+            )
+        };
+        (0..n).map(link).collect::<String>()
+            + &format!("<linearGradient id='g{n}'><stop stop-color='red'/></linearGradient>")
+    };
+    assert!(error(ProfileChoice::Svg, &svg_text(&chain(20_000))).is_limit());
+    let text = svg_text(&chain(1_500));
+    let parsed = bounded(move || read(ProfileChoice::Svg, &text)).unwrap();
+    assert_eq!(parsed.scene.commands.len(), 1_500);
+    let circle = "<linearGradient id='a' href='#b'/><linearGradient id='b' href='#a'/>";
+    let circles = circle.to_owned() + "<rect width='1' height='1' fill='url(#a)'/>";
+    assert!(svg(&circles).scene.commands.is_empty());
+}
+
+#[test]
 fn many_uses_of_a_large_texture() {
     let texture = |filename: &str| format!("<texture texid='t' filename='{filename}'/>");
     let large = texture(&(data_uri("image/png", &png(4, 2)) + &" ".repeat(300_000)));

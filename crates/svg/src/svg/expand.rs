@@ -15,6 +15,9 @@ const MAX_DEPTH: usize = 512;
 /// Steps for trying all selectors on all elements, at most: seconds.
 const MAX_STYLE_STEPS: u64 = 500_000_000;
 
+/// References from gradient to gradient that are followed, at most.
+const MAX_GRADIENT_STEPS: usize = 2_000_000;
+
 /// What an element costs with everything inside it.
 #[derive(Debug, Clone, Copy, Default)]
 struct Weight {
@@ -28,7 +31,9 @@ struct Weight {
 
 /// Refuses documents that refer to themselves or grow beyond the limits.
 pub(super) fn check(root: Node<'_, '_>, limits: &Limits) -> Result<(), Fault> {
-    let weight = Graph::new(root).weigh(root)?;
+    let graph = Graph::new(root);
+    graph.check_gradients(root)?;
+    let weight = graph.weigh(root)?;
     let refuse = |message: String| Err(Fault::at(root.range().start, ErrorKind::Limit(message)));
     if weight.elements > limits.max_elements as u64 {
         return refuse(format!("`use` makes it more than {} elements", limits.max_elements));
@@ -115,6 +120,30 @@ impl<'a, 'input> Graph<'a, 'input> {
         Self { by_id, states: vec![State::Unseen; last + 1], all_marked }
     }
 
+    /// What the `href` of an element refers to.
+    fn target(&self, node: Node<'a, 'input>) -> Option<Node<'a, 'input>> {
+        let id = href(node)?.trim().strip_prefix('#')?;
+        self.by_id.get(id).copied()
+    }
+
+    /// Refuses long chains of gradients, because each is followed to its end from every link.
+    fn check_gradients(&self, root: Node<'a, 'input>) -> Result<(), Fault> {
+        let is_gradient =
+            |n: &Node<'_, '_>| matches!(svg_name(*n), Some("linearGradient" | "radialGradient"));
+        let count = root.descendants().filter(is_gradient).count();
+        let mut steps = 0;
+        for gradient in root.descendants().filter(is_gradient) {
+            let chain = core::iter::successors(Some(gradient), |&n| self.target(n));
+            // A chain that is longer than there are gradients goes in circles.
+            steps += chain.take(count).count();
+            if steps > MAX_GRADIENT_STEPS {
+                let message = "gradients refer to each other in too long chains".into();
+                return Err(Fault::at(gradient.range().start, ErrorKind::Limit(message)));
+            }
+        }
+        Ok(())
+    }
+
     /// The weight of `root`, depth first with an explicit stack.
     fn weigh(mut self, root: Node<'a, 'input>) -> Result<Weight, Fault> {
         let mut stack = vec![self.open(root, false)];
@@ -163,11 +192,7 @@ impl<'a, 'input> Graph<'a, 'input> {
         let vertices = vertices(node, name);
         let weight =
             Weight { elements: 1, depth: 1, vertices, marked: if marked { vertices } else { 0 } };
-        let target = (name == "use")
-            .then(|| href(node))
-            .flatten()
-            .and_then(|href| href.trim().strip_prefix('#'))
-            .and_then(|id| self.by_id.get(id).copied());
+        let target = if name == "use" { self.target(node) } else { None };
         let next =
             if is_dropped(name) || svg_name(node).is_none() { None } else { node.first_child() };
         Open { node, marked, next, target, weight }
