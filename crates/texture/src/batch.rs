@@ -5,10 +5,12 @@
 
 use crate::covariance::Covariance;
 use crate::engine::Engine;
-use crate::ewa::{Limits, Outline, auto_pick, walk_in};
+use crate::ewa::{Limits, auto_pick, walk_in};
+use crate::level::Frame;
 use crate::lod::Pick;
 use crate::point::lerp;
 use crate::texture::into_range;
+use crate::walk::Walk;
 use crate::{Footprint, Texture};
 use scumble_pixel::Premul;
 
@@ -27,33 +29,33 @@ struct Ellipses {
     /// V₂/s².
     minor: [f64; BATCH],
     /// 1 where the footprint is finite and bounded, else 0.
-    usable: [f32; BATCH],
+    usable: [i32; BATCH],
 }
 
 /// The level of each ellipse, as the loops need it.
 #[derive(Default)]
 struct Chosen {
     pick: [Pick; BATCH],
-    scale: [[f64; BATCH]; 2],
-    blurred: [[f64; BATCH]; 2],
-    most: [[f64; BATCH]; 2],
+    frame: [Frame; BATCH],
 }
 
-/// [`Outline`]s, by field.
+/// [`Walk`]s, by field.
 #[derive(Default)]
-struct Outlines {
-    x0: [f64; BATCH],
-    y0: [f64; BATCH],
+struct Walks {
+    x0: [i32; BATCH],
+    y0: [i32; BATCH],
     fx: [f32; BATCH],
     fy: [f32; BATCH],
-    first: [f32; BATCH],
-    rise: [f32; BATCH],
+    first: [i32; BATCH],
+    blocks: [i32; BATCH],
+    groups: [i32; BATCH],
     run: [f32; BATCH],
     slope: [f32; BATCH],
     row_scale: [f32; BATCH],
     run_scale: [f32; BATCH],
+    inside: [i32; BATCH],
     /// 1 where the ellipse needs mending, else 0.
-    rare: [f32; BATCH],
+    rare: [i32; BATCH],
 }
 
 /// Samples a run of footprints with the level chosen by the ellipse.
@@ -74,12 +76,12 @@ pub(crate) fn fill(
             |i| at(first + i),
         );
         let chosen = Chosen::new(t, &ellipses, limits);
-        let outlines = Outlines::new(&ellipses, &chosen, limits);
+        let walks = Walks::new(&ellipses, &chosen, limits);
         for (i, out) in out.iter_mut().enumerate() {
-            *out = if ellipses.usable[i] == 0.0 {
+            *out = if ellipses.usable[i] == 0 {
                 t.average()
             } else {
-                finish(t, engine, &ellipses, &chosen.pick[i], &outlines, i, limits)
+                finish(t, engine, &ellipses, &chosen.pick[i], &walks, i, limits)
             };
         }
     }
@@ -92,13 +94,13 @@ fn finish(
     engine: impl Engine,
     ellipses: &Ellipses,
     pick: &Pick,
-    outlines: &Outlines,
+    walks: &Walks,
     i: usize,
     limits: &Limits,
 ) -> Premul {
     let level = &t.levels[pick.level];
-    let fine = if outlines.rare[i] == 0.0 {
-        engine.walk(level, t.wrap, &outlines.get(i, limits).walk())
+    let fine = if walks.rare[i] == 0 {
+        engine.walk(level, t.wrap, &walks.get(i, limits))
     } else {
         filter(t, engine, ellipses, i, pick.level, limits)
     };
@@ -120,7 +122,7 @@ fn filter(
     limits: &Limits,
 ) -> [f32; 4] {
     let level = &t.levels[index];
-    let sigma = ellipses.get(i).at_level(level.scale, level.blurred);
+    let sigma = ellipses.get(i).at_level(&level.frame);
     engine.walk(level, t.wrap, &walk_in(t, index, ellipses.u[i], ellipses.v[i], sigma, limits))
 }
 
@@ -138,7 +140,7 @@ impl Ellipses {
             e.vv[i] = sigma.vv;
             e.det[i] = sigma.det;
             e.minor[i] = minor * limits.inverse_least;
-            e.usable[i] = if f.is_finite() & f.is_bounded() { 1.0 } else { 0.0 };
+            e.usable[i] = i32::from(f.is_finite() & f.is_bounded());
         }
         e
     }
@@ -155,57 +157,54 @@ impl Chosen {
         let mut chosen = Self::default();
         for i in 0..BATCH {
             let pick = auto_pick(e.minor[i], t.levels.len() - 1, limits.blend);
-            let level = &t.levels[pick.level];
             chosen.pick[i] = pick;
-            for axis in 0..2 {
-                chosen.scale[axis][i] = level.scale[axis];
-                chosen.blurred[axis][i] = level.blurred[axis];
-                chosen.most[axis][i] = level.most[axis];
-            }
+            chosen.frame[i] = t.levels[pick.level].frame;
         }
         chosen
     }
 }
 
-impl Outlines {
+impl Walks {
     #[inline(always)]
     fn new(e: &Ellipses, chosen: &Chosen, limits: &Limits) -> Self {
         let mut o = Self::default();
         for i in 0..BATCH {
-            let both = |v: &[[f64; BATCH]; 2]| [v[0][i], v[1][i]];
-            let scale = both(&chosen.scale);
-            let sigma = e.get(i).at_level(scale, both(&chosen.blurred));
-            let rare = sigma.needs_mending(both(&chosen.most), limits);
-            let outline = Outline::new(e.u[i], e.v[i], scale, &sigma, limits);
-            o.x0[i] = outline.x0;
-            o.y0[i] = outline.y0;
-            o.fx[i] = outline.fx;
-            o.fy[i] = outline.fy;
-            o.first[i] = outline.first;
-            o.rise[i] = outline.rise;
-            o.run[i] = outline.run;
-            o.slope[i] = outline.slope;
-            o.row_scale[i] = outline.row_scale;
-            o.run_scale[i] = outline.run_scale;
-            o.rare[i] = if rare { 1.0 } else { 0.0 };
+            let frame = &chosen.frame[i];
+            let sigma = e.get(i).at_level(frame);
+            let w = Walk::new(e.u[i], e.v[i], frame, &sigma, limits);
+            o.x0[i] = w.x0;
+            o.y0[i] = w.y0;
+            o.fx[i] = w.fx;
+            o.fy[i] = w.fy;
+            o.first[i] = w.first;
+            o.blocks[i] = w.blocks;
+            o.groups[i] = w.groups;
+            o.run[i] = w.run;
+            o.slope[i] = w.slope;
+            o.row_scale[i] = w.row_scale;
+            o.run_scale[i] = w.run_scale;
+            o.inside[i] = w.inside;
+            o.rare[i] = i32::from(sigma.needs_mending(frame, limits));
         }
         o
     }
 
     #[inline(always)]
-    fn get(&self, i: usize, limits: &Limits) -> Outline {
-        Outline {
+    fn get(&self, i: usize, limits: &Limits) -> Walk {
+        Walk {
             x0: self.x0[i],
             y0: self.y0[i],
             fx: self.fx[i],
             fy: self.fy[i],
             first: self.first[i],
-            rise: self.rise[i],
+            blocks: self.blocks[i],
+            groups: self.groups[i],
             run: self.run[i],
             slope: self.slope[i],
             row_scale: self.row_scale[i],
             run_scale: self.run_scale[i],
             cut: limits.cut,
+            inside: self.inside[i],
         }
     }
 }

@@ -1,4 +1,5 @@
 use crate::ewa::Limits;
+use crate::level::Frame;
 use crate::math::sqrt;
 use scumble_geometry::Matrix2;
 
@@ -56,8 +57,8 @@ impl Covariance {
 
     /// S(Σ − M)S: in texels of a level, without what the pyramid has blurred.
     #[inline(always)]
-    pub(crate) fn at_level(self, scale: [f64; 2], blurred: [f64; 2]) -> Self {
-        let ([su, sv], [mu, mv]) = (scale, blurred);
+    pub(crate) fn at_level(self, frame: &Frame) -> Self {
+        let ([su, sv], [mu, mv]) = (frame.scale, frame.blurred);
         Self {
             uu: (self.uu - mu) * su * su,
             uv: self.uv * su * sv,
@@ -68,9 +69,9 @@ impl Covariance {
 
     /// Whether [`Covariance::mend`] has anything to do, or might.
     #[inline(always)]
-    pub(crate) fn needs_mending(&self, most: [f64; 2], limits: &Limits) -> bool {
+    pub(crate) fn needs_mending(&self, frame: &Frame, limits: &Limits) -> bool {
         // The minor variance is at least det/(uu + vv).
-        let [u, v] = most;
+        let [u, v] = frame.most;
         (self.det < LEAST_VARIANCE * (self.uu + self.vv))
             | (self.det > limits.most_det)
             | (self.uu * limits.radius_squared > u * u)
@@ -78,9 +79,9 @@ impl Covariance {
     }
 
     /// Brings the rare ellipse within bounds: not thinner than a texel, not larger than the budget,
-    /// not reaching farther than `most` along each axis of the level.
-    pub(crate) fn mend(self, most: [f64; 2], limits: &Limits) -> Self {
-        self.floored().within_area(limits).within_level(most, limits)
+    /// not reaching too far along either axis of the level.
+    pub(crate) fn mend(self, frame: &Frame, limits: &Limits) -> Self {
+        self.floored().within_area(limits).within_level(frame, limits)
     }
 
     /// The same with no variance along any axis below [`LEAST_VARIANCE`].
@@ -114,13 +115,13 @@ impl Covariance {
         Self { uu: self.uu * k, uv: self.uv * k, vv: self.vv * k, det: limits.most_det }
     }
 
-    /// Squeezes along each axis so that the ellipse's half-width there is at most `most`.
-    fn within_level(self, most: [f64; 2], limits: &Limits) -> Self {
+    /// Squeezes along each axis so that the ellipse's half-width there is what the level allows.
+    fn within_level(self, frame: &Frame, limits: &Limits) -> Self {
         let squeeze = |variance: f64, most: f64| {
             let reach = limits.radius_squared * variance;
             if reach > most * most { most / sqrt(reach) } else { 1.0 }
         };
-        let (ku, kv) = (squeeze(self.uu, most[0]), squeeze(self.vv, most[1]));
+        let (ku, kv) = (squeeze(self.uu, frame.most[0]), squeeze(self.vv, frame.most[1]));
         Self {
             uu: self.uu * ku * ku,
             uv: self.uv * ku * kv,

@@ -45,9 +45,9 @@ impl Taps {
         let mut weights = Vec::with_capacity(outputs * count);
         for i in 0..outputs {
             let centre = (i as f64 + 0.5) * ratio;
-            let first = crate::math::floor(centre - reach + if even { 0.5 } else { 0.0 }) as i64;
+            let first = crate::math::floor(centre - reach + if even { 0.5 } else { 0.0 }) as i32;
             firsts.push(first);
-            weights.extend((first..first + count as i64).map(|j| match filter {
+            weights.extend((first..first + count as i32).map(|j| match filter {
                 Decimation::Kaiser => share * partition((j as f64 + 0.5 - centre) * 2.0 * share),
                 Decimation::Box => share * overlap(j as f64, centre - reach, centre + reach),
             }));
@@ -55,7 +55,7 @@ impl Taps {
         if filter == Decimation::Kaiser {
             balance(&mut weights, &firsts, count, ratio);
         }
-        let taps = firsts.iter().flat_map(|first| *first..*first + count as i64);
+        let taps = firsts.iter().flat_map(|first| *first..*first + count as i32);
         Self {
             outputs,
             count,
@@ -108,7 +108,7 @@ fn overlap(j: f64, from: f64, to: f64) -> f64 {
 /// Makes the weights of every output sum to 1 without changing what any input gives in all, so that
 /// constants and the mean of the level are both kept: what an output lacks it takes from the next one,
 /// at the two texels beside their common edge. The amounts are below two thousandths; areas need none.
-fn balance(weights: &mut [f64], firsts: &[i64], count: usize, ratio: f64) {
+fn balance(weights: &mut [f64], firsts: &[i32], count: usize, ratio: f64) {
     for i in 0..firsts.len() {
         let taps = &mut weights[i * count..(i + 1) * count];
         let lack = 1.0 - taps.iter().sum::<f64>();
@@ -120,7 +120,7 @@ fn balance(weights: &mut [f64], firsts: &[i64], count: usize, ratio: f64) {
         let edge = (i + 1) as f64 * ratio - 0.5;
         let texel = crate::math::floor(edge);
         let fraction = edge - texel;
-        for (j, part) in [(texel as i64, 1.0 - fraction), (texel as i64 + 1, fraction)] {
+        for (j, part) in [(texel as i32, 1.0 - fraction), (texel as i32 + 1, fraction)] {
             weights[i * count + (j - firsts[i]) as usize] += lack * part;
             weights[(i + 1) * count + (j - firsts[i + 1]) as usize] -= lack * part;
         }

@@ -7,14 +7,28 @@ pub(crate) struct Level {
     pub(crate) width: usize,
     pub(crate) height: usize,
     pub(crate) texels: Vec<[f32; 4]>,
-    /// From texels of level 0 to texels of this one, per axis. Not 2^−l where a size was odd.
-    pub(crate) scale: [f64; 2],
-    /// The variance that the pyramid has added so far, per axis, in squared texels of level 0.
-    pub(crate) blurred: [f64; 2],
-    /// How far an ellipse may reach from its centre, per axis: one wrap of the level beyond its
-    /// half, and a texel.
-    pub(crate) most: [f64; 2],
+    pub(crate) frame: Frame,
 }
+
+/// Where a level stands in its pyramid, each number per axis.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Frame {
+    /// From texels of level 0 to texels of this one. Not 2^−l where a size was odd.
+    pub(crate) scale: [f64; 2],
+    /// The variance that the pyramid has added so far, in squared texels of level 0.
+    pub(crate) blurred: [f64; 2],
+    /// How far an ellipse may reach from its centre: one wrap of the level beyond its half, and a
+    /// texel.
+    pub(crate) most: [f64; 2],
+    /// The size within which a walk takes the short way; none where an index would not fit 31 bits.
+    pub(crate) size: [f64; 2],
+}
+
+/// The largest side of a texture, in texels.
+pub(crate) const LARGEST: usize = 1 << 29;
+
+/// Texels of the largest level that a walk takes the short way in.
+const SHORT: usize = 1 << 31;
 
 impl Level {
     /// A level of nothing, to be filled.
@@ -27,15 +41,18 @@ impl Level {
         texels.try_reserve_exact(len).map_err(|_| TextureError::OutOfMemory { bytes })?;
         texels.resize(len, [0.0; 4]);
         let most = [width, height].map(|n| 1.5 * n as f64 + 1.0);
-        Ok(Self { width, height, texels, scale: [1.0; 2], blurred: [0.0; 2], most })
+        let size = if len < SHORT { [width as f64, height as f64] } else { [0.0; 2] };
+        let frame = Frame { scale: [1.0; 2], blurred: [0.0; 2], most, size };
+        Ok(Self { width, height, texels, frame })
     }
 
     /// This level as one over a base of the given size, made by steps that add `step` squared texels
     /// of variance each: m = step·(4^l − 1)/3, with 2^l the true ratio of the sizes.
-    pub(crate) fn over(self, base: [usize; 2], step: f64) -> Self {
+    pub(crate) fn over(mut self, base: [usize; 2], step: f64) -> Self {
         let scale = [self.width as f64 / base[0] as f64, self.height as f64 / base[1] as f64];
-        let blurred = scale.map(|s| step * (1.0 / (s * s) - 1.0) / 3.0);
-        Self { scale, blurred, ..self }
+        self.frame.scale = scale;
+        self.frame.blurred = scale.map(|s| step * (1.0 / (s * s) - 1.0) / 3.0);
+        self
     }
 
     /// The texels of row `y`, which must exist.
@@ -46,7 +63,7 @@ impl Level {
 
     /// The texel at (x, y), which may lie outside.
     #[inline(always)]
-    pub(crate) fn texel(&self, x: i64, y: i64, wrap: Wrap) -> [f32; 4] {
+    pub(crate) fn texel(&self, x: i32, y: i32, wrap: Wrap) -> [f32; 4] {
         match (wrap.resolve(x, self.width), wrap.resolve(y, self.height)) {
             (Some(x), Some(y)) => self.texels[y * self.width + x],
             _ => wrap.border(),

@@ -13,7 +13,7 @@ pub(crate) fn lerp(a: [f32; 4], b: [f32; 4], t: f32) -> [f32; 4] {
 /// The texel that (u, v), in texels of this level, lies in.
 #[inline(always)]
 pub(crate) fn nearest(level: &Level, wrap: Wrap, u: f64, v: f64) -> [f32; 4] {
-    level.texel(floor(u) as i64, floor(v) as i64, wrap)
+    level.texel(floor(u) as i32, floor(v) as i32, wrap)
 }
 
 /// The four texels whose centres surround (u, v), in texels of this level.
@@ -22,7 +22,7 @@ pub(crate) fn bilinear(level: &Level, wrap: Wrap, u: f64, v: f64) -> [f32; 4] {
     let (x, y) = (u - 0.5, v - 0.5);
     let (x0, y0) = (floor(x), floor(y));
     let (fx, fy) = ((x - x0) as f32, (y - y0) as f32);
-    let (x0, y0) = (x0 as i64, y0 as i64);
+    let (x0, y0) = (x0 as i32, y0 as i32);
     let row = |y| lerp(level.texel(x0, y, wrap), level.texel(x0 + 1, y, wrap), fx);
     lerp(row(y0), row(y0 + 1), fy)
 }

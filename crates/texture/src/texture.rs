@@ -2,7 +2,7 @@ use crate::batch;
 use crate::decimate::halve;
 use crate::engine::{Engine, Scalar, Vector};
 use crate::ewa::{self, Limits};
-use crate::level::Level;
+use crate::level::{LARGEST, Level};
 use crate::point::{bilinear, lerp, nearest};
 use crate::srgb::decode_table;
 use crate::wrap::Nearer;
@@ -110,9 +110,13 @@ impl Texture {
         self.levels.iter().map(|l| size_of_val(&l.texels[..])).sum()
     }
 
-    /// Bytes of texels that a texture of this size will hold; `None` if that overflows.
+    /// Bytes of texels that a texture of this size will hold; `None` if that overflows or a
+    /// side is above 2²⁹.
     #[must_use]
     pub fn memory_for(width: usize, height: usize, options: &TextureOptions) -> Option<usize> {
+        if width.max(height) > LARGEST {
+            return None;
+        }
         let mut bytes = 0usize;
         for l in 0..count(width, height, options.levels) {
             let texels = (width >> l).max(1).checked_mul((height >> l).max(1))?;
@@ -245,12 +249,12 @@ impl Texture {
         filter: impl Fn(usize, f64, f64) -> [f32; 4],
     ) -> [f32; 4] {
         let pick = lod::pick(f, point_mode(s), self.levels.len());
-        let [su, sv] = self.levels[pick.level].scale;
+        let [su, sv] = self.levels[pick.level].frame.scale;
         let fine = filter(pick.level, f.u * su, f.v * sv);
         if pick.coarser == 0.0 {
             return fine;
         }
-        let [su, sv] = self.levels[pick.level + 1].scale;
+        let [su, sv] = self.levels[pick.level + 1].frame.scale;
         lerp(fine, filter(pick.level + 1, f.u * su, f.v * sv), pick.coarser)
     }
 }

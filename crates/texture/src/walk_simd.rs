@@ -15,34 +15,41 @@ const COLUMNS: [f32; 16] = [0., 1., 2., 3., 0., 1., 2., 3., 0., 1., 2., 3., 0., 
 #[inline(always)]
 pub(crate) fn walk<S: Simd>(simd: S, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
     let centre = w.centre(level, wrap);
-    if w.is_inside(level) {
-        let base = w.y0 * level.width as i64 + w.x0;
-        let texels = level.texels.as_flattened();
-        let fetch = |j: i32, x: i32| {
-            // Inside, so this is an index of a texel.
-            let i = (base + i64::from(j) * level.width as i64 + i64::from(x)) as usize;
-            texels.get(4 * i..4 * i + 16).map(|run| f32x16::from_slice(simd, run))
+    if w.inside != 0 {
+        // Inside, every sum below is an index of a texel, and fits 31 bits.
+        let width = level.width as i32;
+        let row = i32x16::load_array(simd, ROWS.map(|r| r as i32)) * width;
+        let base = w.y0.wrapping_mul(width).wrapping_add(w.x0);
+        let offsets =
+            |j: i32, start: i32x16<S>| row + base.wrapping_add(j.wrapping_mul(width)) + start;
+        let fetch = |_, i: i32| {
+            let i = i as u32 as usize;
+            let run = level.texels.get(i..i + LANES)?;
+            Some(f32x16::from_slice(simd, run.as_flattened()))
         };
-        return sum(simd, w, centre, fetch);
+        return sum(simd, w, centre, offsets, fetch);
     }
     simd.vectorize(
         #[inline(always)]
         || {
-            sum(simd, w, centre, |j, x| {
+            let fetch = |j, x: i32| {
                 let row = w.row(j, level, wrap);
                 let run = |run: &[_; LANES]| f32x16::from_slice(simd, run.as_flattened());
-                Some(row.with_run(w.x0 + i64::from(x), run))
-            })
+                Some(row.with_run(x, run))
+            };
+            sum(simd, w, centre, |_, start| start + w.x0, fetch)
         },
     )
 }
 
-/// The sums of [`walk`]; `fetch` gets four texels from a row and a column relative to the centre's.
+/// The sums of [`walk`]: `offsets` makes of the first row of a block and the starts of its rows what
+/// `fetch` gets, after the row, to find four texels with.
 #[inline(always)]
 fn sum<S: Simd>(
     simd: S,
     w: &Walk,
     centre: [f32; 4],
+    offsets: impl Fn(i32, i32x16<S>) -> i32x16<S>,
     fetch: impl Fn(i32, i32) -> Option<f32x16<S>>,
 ) -> [f32; 4] {
     let rows = f32x16::load_array(simd, ROWS);
@@ -51,15 +58,14 @@ fn sum<S: Simd>(
     let centres = f32x16::block_splat(centre);
     let mut sums = f32x16::splat(simd, 0.0);
     let mut weights = sums;
-    let groups = w.groups();
-    for block in 0..w.blocks() {
-        let j = w.first + (block * LANES) as i32;
+    for block in 0..w.blocks {
+        let j = w.first + block * LANES as i32;
         let dv = (rows + j as f32) - w.fy;
         let e = (dv * dv) * w.row_scale;
         let middle = dv * w.slope + w.fx;
         let start = (middle - w.run).floor() + 1.0;
-        let starts = start.to_int::<i32x16<S>>().to_array();
-        for k in 0..groups as i32 {
+        let starts = offsets(j, start.to_int()).to_array();
+        for k in 0..w.groups {
             let dx = (start + (columns + (k * LANES as i32) as f32)) - middle;
             let e = e + (dx * dx) * w.run_scale;
             let weight = e.simd_le(w.cut).select(gaussian_x16(e), f32x16::splat(simd, 0.0));
