@@ -70,9 +70,11 @@ impl Covariance {
     /// Whether [`Covariance::mend`] has anything to do, or might.
     #[inline(always)]
     pub(crate) fn needs_mending(&self, frame: &Frame, limits: &Limits) -> bool {
-        // The minor variance is at least det/(uu + vv).
+        // (V₁ − L)(V₂ − L), which is negative where L lies between them.
+        let least = self.det - LEAST_VARIANCE * (self.uu + self.vv - LEAST_VARIANCE);
         let [u, v] = frame.most;
-        (self.det < LEAST_VARIANCE * (self.uu + self.vv))
+        (least < 0.0)
+            | (self.uu + self.vv < 2.0 * LEAST_VARIANCE)
             | (self.det > limits.most_det)
             | (self.uu * limits.radius_squared > u * u)
             | (self.vv * limits.radius_squared > v * v)

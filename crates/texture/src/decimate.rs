@@ -133,9 +133,9 @@ pub(crate) fn halve(from: &Level, filter: Decimation, wrap: Wrap) -> Result<Leve
     let rows = Taps::new(from.height, filter, wrap);
     let mut to = Level::new(columns.outputs, rows.outputs)?;
     let mut tall = Level::new(from.width, 1)?;
-    for (y, out) in to.texels.chunks_exact_mut(columns.outputs).enumerate() {
-        for (x, t) in tall.texels.iter_mut().enumerate() {
-            *t = rows.apply(y, |j| from.texels[j * from.width + x]);
+    for (y, out) in to.rows_mut().enumerate() {
+        for (x, t) in tall.texels.iter_mut().take(from.width).enumerate() {
+            *t = rows.apply(y, |j| from.texels[j * from.stride + x]);
         }
         for (x, t) in out.iter_mut().enumerate() {
             *t = columns.apply(x, |j| tall.texels[j]);

@@ -1,11 +1,12 @@
 use crate::{TextureError, Wrap};
 use alloc::vec::Vec;
 
-/// One level: rows of premultiplied RGBA in the working space, no padding.
+/// One level: rows of premultiplied RGBA in the working space, [`stride`] texels from row to row.
 #[derive(Debug, Clone)]
 pub(crate) struct Level {
     pub(crate) width: usize,
     pub(crate) height: usize,
+    pub(crate) stride: usize,
     pub(crate) texels: Vec<[f32; 4]>,
     pub(crate) frame: Frame,
 }
@@ -30,10 +31,20 @@ pub(crate) const LARGEST: usize = 1 << 29;
 /// Texels of the largest level that a walk takes the short way in.
 const SHORT: usize = 1 << 31;
 
+/// Texels from one row of a level to the next.
+///
+/// Four texels are a line of the cache. An odd number of lines puts the rows that an ellipse crosses
+/// into different sets of it; with the powers of two that textures like to be, they would all fall into
+/// one and push each other out. Narrow levels are left alone.
+pub(crate) fn stride(width: usize) -> usize {
+    if width < 32 { width } else { 4 * (width.div_ceil(4) | 1) }
+}
+
 impl Level {
     /// A level of nothing, to be filled.
     pub(crate) fn new(width: usize, height: usize) -> Result<Self, TextureError> {
-        let len = width.checked_mul(height).ok_or(TextureError::TooLarge { width, height })?;
+        let stride = stride(width);
+        let len = stride.checked_mul(height).ok_or(TextureError::TooLarge { width, height })?;
         let bytes = len
             .checked_mul(size_of::<[f32; 4]>())
             .ok_or(TextureError::TooLarge { width, height })?;
@@ -43,7 +54,7 @@ impl Level {
         let most = [width, height].map(|n| 1.5 * n as f64 + 1.0);
         let size = if len < SHORT { [width as f64, height as f64] } else { [0.0; 2] };
         let frame = Frame { scale: [1.0; 2], blurred: [0.0; 2], most, size };
-        Ok(Self { width, height, texels, frame })
+        Ok(Self { width, height, stride, texels, frame })
     }
 
     /// This level as one over a base of the given size, made by steps that add `step` squared texels
@@ -58,14 +69,20 @@ impl Level {
     /// The texels of row `y`, which must exist.
     #[inline(always)]
     pub(crate) fn row(&self, y: usize) -> &[[f32; 4]] {
-        &self.texels[y * self.width..][..self.width]
+        &self.texels[y * self.stride..][..self.width]
+    }
+
+    /// All rows, to be written.
+    pub(crate) fn rows_mut(&mut self) -> impl Iterator<Item = &mut [[f32; 4]]> {
+        let width = self.width;
+        self.texels.chunks_exact_mut(self.stride).map(move |row| &mut row[..width])
     }
 
     /// The texel at (x, y), which may lie outside.
     #[inline(always)]
     pub(crate) fn texel(&self, x: i32, y: i32, wrap: Wrap) -> [f32; 4] {
         match (wrap.resolve(x, self.width), wrap.resolve(y, self.height)) {
-            (Some(x), Some(y)) => self.texels[y * self.width + x],
+            (Some(x), Some(y)) => self.texels[y * self.stride + x],
             _ => wrap.border(),
         }
     }

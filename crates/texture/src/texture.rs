@@ -2,7 +2,7 @@ use crate::batch;
 use crate::decimate::halve;
 use crate::engine::{Engine, Scalar, Vector};
 use crate::ewa::{self, Limits};
-use crate::level::{LARGEST, Level};
+use crate::level::{LARGEST, Level, stride};
 use crate::point::{bilinear, lerp, nearest};
 use crate::srgb::decode_table;
 use crate::wrap::Nearer;
@@ -101,7 +101,7 @@ impl Texture {
     #[must_use]
     pub fn level(&self, index: usize) -> Option<ImageView<'_, [f32; 4]>> {
         let level = self.levels.get(index)?;
-        ImageView::new(level.width, level.height, level.width, &level.texels).ok()
+        ImageView::new(level.width, level.height, level.stride, &level.texels).ok()
     }
 
     /// Bytes of texels that this texture holds.
@@ -119,7 +119,7 @@ impl Texture {
         }
         let mut bytes = 0usize;
         for l in 0..count(width, height, options.levels) {
-            let texels = (width >> l).max(1).checked_mul((height >> l).max(1))?;
+            let texels = stride((width >> l).max(1)).checked_mul((height >> l).max(1))?;
             bytes = bytes.checked_add(texels.checked_mul(size_of::<[f32; 4]>())?)?;
         }
         isize::try_from(bytes).ok().map(isize::unsigned_abs)
@@ -280,7 +280,7 @@ fn count(width: usize, height: usize, levels: Levels) -> usize {
 fn decode(image: ImageView<'_, [u8; 4]>, space: WorkingSpace) -> Result<Level, TextureError> {
     let table = decode_table(space);
     let mut base = Level::new(image.width(), image.height())?;
-    for (y, out) in base.texels.chunks_exact_mut(image.width()).enumerate() {
+    for (y, out) in base.rows_mut().enumerate() {
         for (t, &[r, g, b, a]) in out.iter_mut().zip(image.row(y)) {
             let alpha = f32::from(a) / 255.0;
             let [r, g, b] = [r, g, b].map(|v| table[usize::from(v)] * alpha);
@@ -294,12 +294,12 @@ fn decode(image: ImageView<'_, [u8; 4]>, space: WorkingSpace) -> Result<Level, T
 fn mean(level: &Level) -> [f32; 4] {
     let first = level.texels[0];
     let mut sum = [0.0f64; 4];
-    for t in &level.texels {
+    for t in (0..level.height).flat_map(|y| level.row(y)) {
         for c in 0..4 {
             sum[c] += f64::from(t[c] - first[c]);
         }
     }
-    let n = level.texels.len() as f64;
+    let n = level.width as f64 * level.height as f64;
     core::array::from_fn(|c| first[c] + (sum[c] / n) as f32)
 }
 

@@ -17,11 +17,11 @@ pub(crate) fn walk<S: Simd>(simd: S, level: &Level, wrap: Wrap, w: &Walk) -> [f3
     let centre = w.centre(level, wrap);
     if w.inside != 0 {
         // Inside, every sum below is an index of a texel, and fits 31 bits.
-        let width = level.width as i32;
-        let row = i32x16::load_array(simd, ROWS.map(|r| r as i32)) * width;
-        let base = w.y0.wrapping_mul(width).wrapping_add(w.x0);
+        let stride = level.stride as i32;
+        let row = i32x16::load_array(simd, ROWS.map(|r| r as i32)) * stride;
+        let base = w.y0.wrapping_mul(stride).wrapping_add(w.x0);
         let offsets =
-            |j: i32, start: i32x16<S>| row + base.wrapping_add(j.wrapping_mul(width)) + start;
+            |j: i32, start: i32x16<S>| row + base.wrapping_add(j.wrapping_mul(stride)) + start;
         let fetch = |_, i: i32| {
             let i = i as u32 as usize;
             let run = level.texels.get(i..i + LANES)?;
