@@ -4,18 +4,22 @@
 //! call, so that the compiler makes vectors of them. What is rare is redone one by one.
 
 use crate::covariance::Covariance;
-use crate::engine::Engine;
+use crate::engine::{Engine, Job};
 use crate::ewa::{Limits, auto_pick, walk_in};
 use crate::level::Frame;
 use crate::lod::Pick;
 use crate::point::lerp;
 use crate::texture::into_range;
 use crate::walk::Walk;
+use crate::walk_simd::Scratch;
 use crate::{Footprint, Texture};
 use scumble_pixel::Premul;
 
 /// Pixels set up together.
 const BATCH: usize = 16;
+
+/// Pixels from which on a batch is quicker than one by one.
+pub(crate) const WORTH: usize = 4;
 
 /// Ellipses in level 0.
 #[derive(Default)]
@@ -67,6 +71,7 @@ pub(crate) fn fill(
     limits: &Limits,
     out: &mut [Premul],
 ) {
+    let mut scratch = Scratch::default();
     for (chunk, out) in out.chunks_mut(BATCH).enumerate() {
         let first = chunk * BATCH;
         let ellipses = Ellipses::new(
@@ -77,53 +82,57 @@ pub(crate) fn fill(
         );
         let chosen = Chosen::new(t, &ellipses, limits);
         let walks = Walks::new(&ellipses, &chosen, limits);
+        let mut jobs = [Job::default(); 2 * BATCH];
+        let count = list(t, &ellipses, &chosen, &walks, limits, &mut jobs[..], out.len());
+        let mut colors = [[0.0; 4]; 2 * BATCH];
+        engine.walk_all(t, &jobs[..count], &mut scratch, &mut colors[..count]);
+        let mut colors = colors.iter();
         for (i, out) in out.iter_mut().enumerate() {
             *out = if ellipses.usable[i] == 0 {
                 t.average()
             } else {
-                finish(t, engine, &ellipses, &chosen.pick[i], &walks, i, limits)
+                let mut next = || colors.next().copied().unwrap_or_default();
+                let fine = next();
+                let coarser = chosen.pick[i].coarser;
+                into_range(if coarser > 0.0 { lerp(fine, next(), coarser) } else { fine })
             };
         }
     }
 }
 
-/// The walks of one pixel.
+/// The walks of the first `pixels` pixels: none for the unusable, two for those that blend. Returns
+/// how many.
 #[inline(always)]
-fn finish(
+fn list(
     t: &Texture,
-    engine: impl Engine,
     ellipses: &Ellipses,
-    pick: &Pick,
+    chosen: &Chosen,
     walks: &Walks,
-    i: usize,
     limits: &Limits,
-) -> Premul {
-    let level = &t.levels[pick.level];
-    let fine = if walks.rare[i] == 0 {
-        engine.walk(level, t.wrap, &walks.get(i, limits))
-    } else {
-        filter(t, engine, ellipses, i, pick.level, limits)
-    };
-    if pick.coarser == 0.0 {
-        return into_range(fine);
+    jobs: &mut [Job],
+    pixels: usize,
+) -> usize {
+    let mut count = 0;
+    for i in (0..pixels).filter(|i| ellipses.usable[*i] != 0) {
+        let Pick { level, coarser } = chosen.pick[i];
+        let alone = |level: usize| {
+            let sigma = ellipses.get(i).at_level(&t.levels[level].frame);
+            walk_in(t, level, ellipses.u[i], ellipses.v[i], sigma, limits)
+        };
+        let job = &mut jobs[count];
+        job.level = level;
+        if walks.rare[i] == 0 {
+            walks.put(i, limits, &mut job.walk);
+        } else {
+            job.walk = alone(level);
+        }
+        count += 1;
+        if coarser > 0.0 {
+            jobs[count] = Job { level: level + 1, walk: alone(level + 1) };
+            count += 1;
+        }
     }
-    let coarse = filter(t, engine, ellipses, i, pick.level + 1, limits);
-    into_range(lerp(fine, coarse, pick.coarser))
-}
-
-/// One walk, set up alone.
-#[inline(always)]
-fn filter(
-    t: &Texture,
-    engine: impl Engine,
-    ellipses: &Ellipses,
-    i: usize,
-    index: usize,
-    limits: &Limits,
-) -> [f32; 4] {
-    let level = &t.levels[index];
-    let sigma = ellipses.get(i).at_level(&level.frame);
-    engine.walk(level, t.wrap, &walk_in(t, index, ellipses.u[i], ellipses.v[i], sigma, limits))
+    count
 }
 
 impl Ellipses {
@@ -189,22 +198,21 @@ impl Walks {
         o
     }
 
+    /// Field by field: a copy of the whole would wait for the fields' stores.
     #[inline(always)]
-    fn get(&self, i: usize, limits: &Limits) -> Walk {
-        Walk {
-            x0: self.x0[i],
-            y0: self.y0[i],
-            fx: self.fx[i],
-            fy: self.fy[i],
-            first: self.first[i],
-            blocks: self.blocks[i],
-            groups: self.groups[i],
-            run: self.run[i],
-            slope: self.slope[i],
-            row_scale: self.row_scale[i],
-            run_scale: self.run_scale[i],
-            cut: limits.cut,
-            inside: self.inside[i],
-        }
+    fn put(&self, i: usize, limits: &Limits, w: &mut Walk) {
+        w.x0 = self.x0[i];
+        w.y0 = self.y0[i];
+        w.fx = self.fx[i];
+        w.fy = self.fy[i];
+        w.first = self.first[i];
+        w.blocks = self.blocks[i];
+        w.groups = self.groups[i];
+        w.run = self.run[i];
+        w.slope = self.slope[i];
+        w.row_scale = self.row_scale[i];
+        w.run_scale = self.run_scale[i];
+        w.cut = limits.cut;
+        w.inside = self.inside[i];
     }
 }

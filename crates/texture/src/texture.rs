@@ -171,7 +171,7 @@ impl Texture {
         out: &mut [Premul],
     ) {
         let limits = Limits::new(s);
-        if s.pixel == PixelFilter::Ewa && s.level == LevelMode::Auto {
+        if s.pixel == PixelFilter::Ewa && s.level == LevelMode::Auto && out.len() >= batch::WORTH {
             return batch::fill(self, engine, at, &limits, out);
         }
         for (i, out) in out.iter_mut().enumerate() {
@@ -306,6 +306,9 @@ fn mean(level: &Level) -> [f32; 4] {
 /// Takes off what a sharp pyramid overshoots: alpha to 0…1, colour to 0…alpha.
 #[inline(always)]
 pub(crate) fn into_range([r, g, b, a]: [f32; 4]) -> Premul {
-    let a = a.clamp(0.0, 1.0);
-    Premul([r.clamp(0.0, a), g.clamp(0.0, a), b.clamp(0.0, a), a])
+    // Comparisons in this form are one instruction each.
+    let positive = |v: f32| if v > 0.0 { v } else { 0.0 };
+    let below = |v: f32, most: f32| if v < most { v } else { most };
+    let a = below(positive(a), 1.0);
+    Premul([below(positive(r), a), below(positive(g), a), below(positive(b), a), a])
 }

@@ -18,7 +18,7 @@ pub(crate) const LANES: usize = 4;
 /// Texel (x0 + i, y0 + j) lies at dv = j − fy below the centre; the ellipse's middle in its row is at
 /// fx + slope·dv from x0, and with dx the distance from there the Gaussian's exponent is
 /// e = row_scale·dv² + run_scale·dx². Both terms are positive, so nothing cancels.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Walk {
     /// The whole part of the centre, in index space.
     pub(crate) x0: i32,
@@ -93,6 +93,12 @@ impl Walk {
             cut: limits.cut,
             inside: i32::from(inside),
         }
+    }
+
+    /// Blocks times groups of a walk inside its level; 0 if it is not.
+    #[inline(always)]
+    pub(crate) fn pieces(&self) -> usize {
+        (self.blocks * self.groups * self.inside) as usize
     }
 
     /// Texels that the walk reads.
