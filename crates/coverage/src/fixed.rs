@@ -16,26 +16,42 @@ impl FixedPoint {
     /// The nearest point of the grid: floor(256 v + ½) in each coordinate. `None` if that lies
     /// beyond ±2²¹ pixels or is not a number.
     #[must_use]
+    #[inline]
     pub fn snap(p: DVec2) -> Option<Self> {
         Some(Self { x: snap(p.x)?, y: snap(p.y)? })
     }
 }
 
+/// 2⁵¹: [`floor`] is right up to here, and beyond twice this there is nothing to round.
+const HALVES_END: f64 = 2_251_799_813_685_248.0;
+
 /// floor(256 v + ½) as a real number: no bounds yet.
 pub(crate) fn snap_real(v: f64) -> f64 {
     let scaled = v * 256.0;
-    // From 2⁵² on every f64 is whole, and adding ½ would round.
-    if scaled.abs() < 4_503_599_627_370_496.0 { floor(scaled + 0.5) } else { scaled }
+    // Where every f64 is whole, adding ½ would round.
+    if scaled.abs() < HALVES_END { floor(scaled + 0.5) } else { scaled }
 }
 
+#[inline]
 fn snap(v: f64) -> Option<i32> {
-    let snapped = snap_real(v);
-    // A NaN fails the comparison.
-    (snapped.abs() <= f64::from(GUARD)).then_some(snapped as i32)
+    const LIMIT: f64 = GUARD as f64;
+    let snapped = floor(v * 256.0 + 0.5);
+    // A NaN fails the comparison. Beyond the guard band `floor` is of no use, but keeps out as well.
+    (snapped.abs() <= LIMIT).then(|| low_bits(snapped))
 }
 
-/// `f64::floor` for |v| < 2⁵³, without the standard library.
+/// 1.5 × 2⁵²: added to a small number, it leaves the nearest whole number in the low bits.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+/// The whole number v, |v| ≤ 2³¹. A plain cast would also look for NaN and saturate.
+#[inline]
+fn low_bits(v: f64) -> i32 {
+    (v + ROUNDER).to_bits() as i32
+}
+
+/// `f64::floor` for |v| < 2⁵¹, without the standard library; beyond it something as large.
+#[inline]
 pub(crate) fn floor(v: f64) -> f64 {
-    let whole = v as i64 as f64;
-    if whole > v { whole - 1.0 } else { whole }
+    let nearest = (v + ROUNDER) - ROUNDER;
+    if nearest > v { nearest - 1.0 } else { nearest }
 }

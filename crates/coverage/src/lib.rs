@@ -47,6 +47,7 @@
 
 extern crate alloc;
 
+mod accumulate;
 mod edge;
 mod error;
 mod fixed;
@@ -58,9 +59,11 @@ mod polygon;
 mod scratch;
 mod shape;
 mod sink;
+mod traversal;
 mod triangle;
 
 pub use error::CoverageError;
+pub use fearless_simd::Level;
 pub use fixed::FixedPoint;
 pub use hairline::hairline;
 pub use mask::SampleMask;
@@ -68,4 +71,5 @@ pub use pattern::SamplePattern;
 pub use scratch::Scratch;
 pub use scumble_geometry::{DVec2, FillRule, IntRect};
 pub use shape::{Cover, Shape};
-pub use sink::Sink;
+pub use sink::{AreaSink, Sink};
+pub use traversal::{Order, Traversal};

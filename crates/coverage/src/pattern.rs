@@ -10,6 +10,10 @@ pub struct SamplePattern {
     rows: Vec<SampleRow>,
     /// The samples' indices, those of one row together.
     by_row: Vec<u8>,
+    /// The offsets by axis, filled up with copies of the first.
+    lanes: [[i32; 64]; 2],
+    /// The smallest and the largest offset by axis.
+    extent: [[u8; 2]; 2],
 }
 
 /// The samples of a pattern that share one y.
@@ -106,7 +110,15 @@ impl SamplePattern {
                 _ => rows.push(SampleRow { y, first: i as u8, end: i as u8 + 1 }),
             }
         }
-        Self { offsets, rows, by_row }
+        let axis = |k: usize| {
+            let lane = |s: usize| i32::from(offsets.get(s).unwrap_or(&offsets[0])[k]);
+            core::array::from_fn(lane)
+        };
+        let corner = |pick: fn(u8, u8) -> u8| {
+            offsets.iter().fold(offsets[0], |p, o| [pick(p[0], o[0]), pick(p[1], o[1])])
+        };
+        let (lanes, extent) = ([axis(0), axis(1)], [corner(u8::min), corner(u8::max)]);
+        Self { offsets, rows, by_row, lanes, extent }
     }
 
     /// How many samples, 1 to 64.
@@ -132,6 +144,16 @@ impl SamplePattern {
     /// The distinct heights of the samples, from the top.
     pub(crate) fn rows(&self) -> &[SampleRow] {
         &self.rows
+    }
+
+    /// The offsets by axis, x first, filled up with copies of the first sample.
+    pub(crate) fn lanes(&self) -> &[[i32; 64]; 2] {
+        &self.lanes
+    }
+
+    /// The corners of the samples' bounding box.
+    pub(crate) fn extent(&self) -> [[u8; 2]; 2] {
+        self.extent
     }
 
     /// The samples of one row: their indices.

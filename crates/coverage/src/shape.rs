@@ -1,6 +1,6 @@
 use crate::polygon::Polygon;
 use crate::triangle::Triangle;
-use crate::{CoverageError, SamplePattern, Scratch, Sink, guard};
+use crate::{AreaSink, CoverageError, SamplePattern, Scratch, Sink, Traversal, guard};
 use alloc::boxed::Box;
 use scumble_geometry::{DVec2, FillRule, IntRect};
 
@@ -103,8 +103,48 @@ impl Shape {
             return;
         }
         match &self.0 {
-            Kind::Triangle(t) => t.rasterize(region, pattern, &mut scratch.triangle, sink),
+            Kind::Triangle(t) => {
+                t.rasterize(region, pattern, scratch.level, &mut scratch.triangle, sink);
+            }
             Kind::Polygon(p) => p.rasterize(region, pattern, &mut scratch.polygon, sink),
+        }
+    }
+
+    /// [`Shape::rasterize`] by another way of finding the samples: the same samples, in another
+    /// order and another time.
+    pub fn rasterize_by(
+        &self,
+        traversal: Traversal,
+        clip: IntRect,
+        pattern: &SamplePattern,
+        scratch: &mut Scratch,
+        sink: &mut impl Sink,
+    ) {
+        let region = clip.intersect(&self.bounds());
+        if region.is_empty() {
+            return;
+        }
+        match (&self.0, traversal) {
+            (_, Traversal::Tiled) => self.rasterize(clip, pattern, scratch, sink),
+            (Kind::Triangle(t), _) => t.traverse(traversal, region, pattern, sink),
+            (Kind::Polygon(p), Traversal::BoundingBox) => p.test_each(region, pattern, sink),
+            (Kind::Polygon(_), _) => self.rasterize(clip, pattern, scratch, sink),
+        }
+    }
+
+    /// Tells how much of each pixel within `clip` the shape covers.
+    ///
+    /// The area is that of the snapped shape, exact to about 10⁻⁷ (the error of each edge in a pixel is
+    /// 2⁻³², the result an f32), overlaps and crossings counted by the fill rule. It does not depend on `clip`, and
+    /// the areas of the pieces of a mesh add up to the area of the whole.
+    pub fn rasterize_area(&self, clip: IntRect, scratch: &mut Scratch, sink: &mut impl AreaSink) {
+        let region = clip.intersect(&self.bounds());
+        if region.is_empty() {
+            return;
+        }
+        match &self.0 {
+            Kind::Triangle(t) => t.rasterize_area(region, &mut scratch.area, sink),
+            Kind::Polygon(p) => p.rasterize_area(region, &mut scratch.polygon, sink),
         }
     }
 }

@@ -21,3 +21,29 @@ pub trait Sink {
     /// Some samples of one pixel: at least one, not all.
     fn pixel(&mut self, x: i32, y: i32, mask: SampleMask);
 }
+
+/// Receives the covered area of one shape, pixel by pixel.
+///
+/// As with [`Sink`], the order of the calls is not specified but always the same, and each pixel is named at most
+/// once per call of [`Shape::rasterize_area`](crate::Shape::rasterize_area).
+pub trait AreaSink {
+    /// Every pixel in `rect`, which is not empty, is covered whole.
+    fn block(&mut self, rect: IntRect) {
+        for y in rect.y0..rect.y1 {
+            self.run(y, rect.x0, rect.x1);
+        }
+    }
+
+    /// The pixels `x0..x1` of row `y` are covered whole; `x0 < x1`.
+    fn run(&mut self, y: i32, x0: i32, x1: i32);
+
+    /// The pixels `x0..x1` of row `y` are covered by the same part; `x0 < x1`, 0 < `area` ≤ 1.
+    fn span(&mut self, y: i32, x0: i32, x1: i32, area: f32) {
+        for x in x0..x1 {
+            self.pixel(x, y, area);
+        }
+    }
+
+    /// A part of one pixel is covered, 0 < `area` ≤ 1.
+    fn pixel(&mut self, x: i32, y: i32, area: f32);
+}

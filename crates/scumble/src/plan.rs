@@ -2,7 +2,7 @@
 
 use crate::paint::{Gouraud, Paint, Textured};
 use crate::{Interpolation, Settings};
-use scumble_coverage::Shape;
+use scumble_coverage::{Cover, Shape};
 use scumble_geometry::{
     Affine, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Rect, clip_polygon, line_quad,
 };
@@ -12,6 +12,14 @@ use scumble_scene::{
     TexturedTriangle,
 };
 use scumble_texture::{LevelMode, PixelFilter, Sampler, Texture};
+
+/// An image of the scene, ready to be sampled.
+#[derive(Debug)]
+pub(crate) struct Surface {
+    pub(crate) texture: Texture,
+    /// Whether every texel is opaque, so that every average of them is.
+    pub(crate) opaque: bool,
+}
 
 /// How far, in pixels, a chord may lie from its curve: a sixty-fourth is an error of about one
 /// grey level in 255 on a pixel that the curve crosses. Halving it costs 1.4 times the points.
@@ -26,6 +34,17 @@ pub(crate) struct Draw {
     pub(crate) layer: u32,
     /// The pixels of the canvas that it may touch.
     pub(crate) bounds: IntRect,
+}
+
+impl Draw {
+    /// Whether it may own a sample of a rectangle.
+    pub(crate) fn touches(&self, rect: IntRect) -> bool {
+        let inside = match &self.form {
+            Form::Shape(shape) => shape.covers(rect) != Cover::None,
+            Form::Chain(_) | Form::Pixel => true,
+        };
+        inside && !self.bounds.intersect(&rect).is_empty()
+    }
 }
 
 /// Which samples a primitive owns.
@@ -51,11 +70,12 @@ pub(crate) struct Layer {
 pub(crate) struct Plan {
     pub(crate) draws: Vec<Draw>,
     pub(crate) layers: Vec<Layer>,
-    pub(crate) textures: Vec<Option<Texture>>,
+    /// By image index; `None` where no command uses the image.
+    pub(crate) surfaces: Vec<Option<Surface>>,
 }
 
-/// Makes the primitives of a scene for given settings; `textures` stand by image index.
-pub(crate) fn build(scene: &Scene, settings: &Settings, textures: Vec<Option<Texture>>) -> Plan {
+/// Makes the primitives of a scene for given settings.
+pub(crate) fn build(scene: &Scene, settings: &Settings, surfaces: Vec<Option<Surface>>) -> Plan {
     let canvas = IntRect::new(0, 0, settings.width as i32, settings.height as i32);
     let mut planner = Planner {
         settings,
@@ -65,16 +85,15 @@ pub(crate) fn build(scene: &Scene, settings: &Settings, textures: Vec<Option<Tex
         plan: Plan {
             draws: Vec::with_capacity(scene.commands.len()),
             layers: vec![Layer { parent: 0, opacity: 1.0 }],
-            textures,
+            surfaces,
         },
     };
     for command in &scene.commands {
         planner.command(command);
     }
     planner.layer = 0;
-    let identity = Homography::IDENTITY;
-    for [a, b] in scene.view.frame(settings.width, settings.height).into_iter().flatten() {
-        planner.hairline_on_canvas([a, b].map(|p| identity.project_homogeneous(p)), Straight::BLACK);
+    for ends in scene.view.frame(settings.width, settings.height).into_iter().flatten() {
+        planner.hairline_on_canvas(ends, Straight::BLACK);
     }
     planner.plan
 }
@@ -162,40 +181,42 @@ impl Planner<'_> {
                 .map(|gouraud| Paint::Gouraud(Box::new(gouraud)))
         };
         if let Some(paint) = paint {
-            self.push_shape(triangle_shape(corners), paint);
+            self.push_shape(triangle_shape(corners, to_canvas.near_w()), paint);
         }
     }
 
     fn textured(&mut self, triangle: &TexturedTriangle) {
         let to_canvas = self.to_canvas(&triangle.transform);
-        let corners = triangle.points.map(|p| to_canvas.project_homogeneous(p));
-        self.textured_corners(corners, triangle.uvs, triangle.image, triangle.opacity);
+        let TexturedTriangle { points, uvs, image, opacity, .. } = *triangle;
+        self.textured_corners(&to_canvas, points, uvs, image, opacity);
     }
 
     fn textured_corners(
         &mut self,
-        corners: [DVec3; 3],
+        to_canvas: &Homography,
+        points: [DVec2; 3],
         uvs: [DVec2; 3],
         image: ImageId,
         opacity: f32,
     ) {
         let Some(size) = self.texture_size(image) else { return };
+        let corners = points.map(|p| to_canvas.project_homogeneous(p));
         let texels = uvs.map(|uv| uv * size);
         let Ok(map) = Homography::from_triangle(self.attribute_corners(corners), texels) else {
             return;
         };
         let paint = self.texture_paint(image, map, self.settings.sampler, opacity);
-        self.push_shape(triangle_shape(corners), paint);
+        self.push_shape(triangle_shape(corners, to_canvas.near_w()), paint);
     }
 
     fn image(&mut self, quad: &ImageQuad) {
         let to_canvas = self.to_canvas(&quad.transform);
-        let corners = quad.rect.corners().map(|p| to_canvas.project_homogeneous(p));
         if self.settings.interpolation == Interpolation::Affine && !to_canvas.is_affine() {
-            let [a, b, c, d] = corners;
-            let [ta, tb, tc, td] = quad.source.corners();
-            self.textured_corners([a, b, c], [ta, tb, tc], quad.image, quad.opacity);
-            self.textured_corners([a, c, d], [ta, tc, td], quad.image, quad.opacity);
+            let (corners, uvs) = (quad.rect.corners(), quad.source.corners());
+            for half in [[0, 1, 2], [0, 2, 3]] {
+                let (points, uvs) = (half.map(|i: usize| corners[i]), half.map(|i| uvs[i]));
+                self.textured_corners(&to_canvas, points, uvs, quad.image, quad.opacity);
+            }
             return;
         }
         let Some(size) = self.texture_size(quad.image) else { return };
@@ -214,19 +235,21 @@ impl Planner<'_> {
             self.settings.sampler
         };
         let paint = self.texture_paint(quad.image, map, sampler, quad.opacity);
-        self.push_shape(polygon_shape(&corners), paint);
+        let corners = quad.rect.corners().map(|p| to_canvas.project_homogeneous(p));
+        self.push_shape(polygon_shape(&corners, to_canvas.near_w()), paint);
     }
 
     fn hairline(&mut self, line: &Hairline) {
         let to_canvas = self.to_canvas(&line.transform);
         let ends = [line.from, line.to].map(|p| to_canvas.project_homogeneous(p));
-        self.hairline_on_canvas(ends, line.color);
+        if let Some(ends) = visible_part(ends, to_canvas.near_w()) {
+            self.hairline_on_canvas(ends, line.color);
+        }
     }
 
     /// One sample: a chain of pixels. More: a quad one pixel wide, antialiased like all else.
-    fn hairline_on_canvas(&mut self, ends: [DVec3; 2], color: Straight) {
+    fn hairline_on_canvas(&mut self, [a, b]: [DVec2; 2], color: Straight) {
         let paint = Paint::Solid(self.import(color));
-        let Some([a, b]) = visible_part(ends) else { return };
         if self.settings.pattern.len() > 1 {
             let shape = line_quad(a, b, 1.0)
                 .and_then(|quad| Shape::polygon([&quad[..]], FillRule::NonZero).ok().flatten());
@@ -262,7 +285,7 @@ impl Planner<'_> {
     }
 
     fn texture_size(&self, image: ImageId) -> Option<DVec2> {
-        let texture = self.plan.textures.get(image.0)?.as_ref()?;
+        let Surface { texture, .. } = self.plan.surfaces.get(image.0)?.as_ref()?;
         Some(DVec2::new(texture.width() as f64, texture.height() as f64))
     }
 
@@ -273,9 +296,9 @@ impl Planner<'_> {
         sampler: Sampler,
         opacity: f32,
     ) -> Paint {
-        let texture = self.plan.textures.get(image.0).and_then(Option::as_ref);
-        let opaque = opacity >= 1.0 && texture.is_some_and(Texture::is_opaque);
-        Paint::Textured(Box::new(Textured { map, texture: image.0, sampler, opacity, opaque }))
+        let surface = self.plan.surfaces.get(image.0).and_then(Option::as_ref);
+        let opaque = opacity >= 1.0 && surface.is_some_and(|surface| surface.opaque);
+        Paint::Textured(Box::new(Textured { map, surface: image.0, sampler, opacity, opaque }))
     }
 }
 
@@ -291,26 +314,32 @@ fn scale_of(to_canvas: &Homography, stroke: &Stroke) -> f64 {
     if largest > 0.0 { largest.min(1e4) } else { 1.0 }
 }
 
-fn triangle_shape(corners: [DVec3; 3]) -> Option<Shape> {
-    if corners.iter().all(|c| c.z > 0.0) {
-        let points = corners.map(|c| DVec2::new(c.x / c.z, c.y / c.z));
-        return Shape::triangle(points).ok().flatten();
+fn triangle_shape(corners: [DVec3; 3], min_w: f64) -> Option<Shape> {
+    if corners.iter().all(|c| c.z >= min_w) {
+        return Shape::triangle(corners.map(divide)).ok().flatten();
     }
-    polygon_shape(&corners)
+    polygon_shape(&corners, min_w)
 }
 
-fn polygon_shape(corners: &[DVec3]) -> Option<Shape> {
+fn polygon_shape(corners: &[DVec3], min_w: f64) -> Option<Shape> {
     let mut clipped = Vec::new();
-    clip_polygon(corners, MIN_W, &mut clipped);
-    let points: Vec<DVec2> = clipped.iter().map(|c| DVec2::new(c.x / c.z, c.y / c.z)).collect();
+    clip_polygon(corners, min_w, &mut clipped);
+    let points: Vec<DVec2> = clipped.into_iter().map(divide).collect();
     Shape::polygon([&points[..]], FillRule::NonZero).ok().flatten()
 }
 
 /// The part of a line before the eye, on the screen.
-fn visible_part([a, b]: [DVec3; 2]) -> Option<[DVec2; 2]> {
+fn visible_part(ends: [DVec3; 2], min_w: f64) -> Option<[DVec2; 2]> {
+    let [a, b] = ends;
+    // The line there and back is an outline.
     let mut clipped = Vec::new();
-    clip_polygon(&[a, b], MIN_W, &mut clipped);
-    let first = clipped.first()?;
-    let last = clipped.get(1)?;
-    Some([*first, *last].map(|c| DVec2::new(c.x / c.z, c.y / c.z)))
+    clip_polygon(&[a, b], min_w, &mut clipped);
+    let seen = |p: DVec3, other: DVec3| {
+        if p.z >= min_w { Some(p) } else { clipped.iter().copied().find(|&q| q != other) }
+    };
+    Some([divide(seen(a, b)?), divide(seen(b, a)?)])
+}
+
+fn divide(p: DVec3) -> DVec2 {
+    DVec2::new(p.x / p.z, p.y / p.z)
 }

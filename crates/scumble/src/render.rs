@@ -1,5 +1,5 @@
 use crate::bins::{Bins, Grid};
-use crate::plan::{self, Draw, Layer, Plan};
+use crate::plan::{self, Draw, Layer, Plan, Surface};
 use crate::schedule::{self, Pool};
 use crate::tile::Job;
 use crate::{Background, Control, ImageSink, RenderError, Settings, Sink};
@@ -44,9 +44,9 @@ pub fn render<S: Sink>(
 ) -> Result<Stats, RenderError<S::Error>> {
     let area = area(settings)?;
     let pool = Pool::new(settings.threads).map_err(RenderError::Threads)?;
-    let textures = pool.install(|| textures(scene, settings))?;
-    let texture_bytes = textures.iter().flatten().map(Texture::memory).sum();
-    let plan = plan::build(scene, settings, textures);
+    let surfaces = pool.install(|| surfaces(scene, settings))?;
+    let texture_bytes = surfaces.iter().flatten().map(|s| s.texture.memory()).sum();
+    let plan = plan::build(scene, settings, surfaces);
     let grid = Grid { area, tile: settings.tile_size };
     check_memory(&plan, settings, &grid, pool.threads(), texture_bytes)?;
     let stats = Stats {
@@ -104,10 +104,7 @@ fn background(scene: &Scene, settings: &Settings) -> Premul {
 }
 
 /// Builds the textures that commands use; the others stay `None`.
-fn textures<E>(
-    scene: &Scene,
-    settings: &Settings,
-) -> Result<Vec<Option<Texture>>, RenderError<E>> {
+fn surfaces<E>(scene: &Scene, settings: &Settings) -> Result<Vec<Option<Surface>>, RenderError<E>> {
     let mut used = vec![false; scene.images.len()];
     for command in &scene.commands {
         if let Command::Textured(scumble_scene::TexturedTriangle { image: ImageId(i), .. })
@@ -128,9 +125,10 @@ fn textures<E>(
         .enumerate()
         .map(|(index, image)| {
             let Some(image) = image else { return Ok(None) };
-            Texture::new(image.pixels.view(), &texture_options(image, settings))
-                .map(Some)
-                .map_err(|source| RenderError::Texture { index, source })
+            let texture = Texture::new(image.pixels.view(), &texture_options(image, settings))
+                .map_err(|source| RenderError::Texture { index, source })?;
+            let opaque = image.pixels.pixels().iter().all(|texel| texel[3] == 255);
+            Ok(Some(Surface { texture, opaque }))
         })
         .collect()
 }
@@ -169,9 +167,8 @@ fn check_memory<E>(
     let tiles = tile.saturating_mul(depth(&plan.layers)).saturating_mul(threads as u64);
     let rows = schedule::buffered_rows(grid, threads) as u64 * u64::from(grid.area.width()) * 4;
     let draws = (plan.draws.len() * size_of::<Draw>()) as u64;
-    let needed = [tiles, rows, draws, texture_bytes as u64]
-        .into_iter()
-        .fold(0u64, u64::saturating_add);
+    let needed =
+        [tiles, rows, draws, texture_bytes as u64].into_iter().fold(0u64, u64::saturating_add);
     check_limit(needed, settings)
 }
 

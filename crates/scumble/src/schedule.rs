@@ -97,7 +97,8 @@ pub(crate) fn run<S: Sink>(
     control: &Control<'_>,
 ) -> Result<(), RenderError<S::Error>> {
     let step = bands_per_group(&grid, pool.threads());
-    let mut groups = Groups { job, grid, bins, pool, control, lists: Vec::new(), idle: Mutex::default() };
+    let mut groups =
+        Groups { job, grid, bins, pool, control, lists: Vec::new(), idle: Mutex::default() };
     let (mut ready, mut next) = (Vec::new(), Vec::new());
     let mut ready_rows = 0..0;
     // One round more than there are groups: the last only hands over.
@@ -164,7 +165,9 @@ impl Groups<'_> {
                 rows: Vec::with_capacity(grid.tile as usize),
             }));
             for row in strip.chunks_mut(width) {
-                for (task, piece) in tasks[first..].iter_mut().zip(row.chunks_mut(grid.tile as usize)) {
+                for (task, piece) in
+                    tasks[first..].iter_mut().zip(row.chunks_mut(grid.tile as usize))
+                {
                     task.rows.push(piece);
                 }
             }

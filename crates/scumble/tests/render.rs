@@ -23,12 +23,10 @@ fn scene(commands: Vec<Command>) -> Scene {
     }
 }
 
+#[allow(clippy::unwrap_used)] // a helper of tests
 fn checker() -> SceneImage {
     let pixels = (0..64).map(|i| if (i + i / 8) % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] });
-    SceneImage {
-        pixels: Image::from_vec(8, 8, pixels.collect()).unwrap(),
-        wrap: ImageWrap::Clamp,
-    }
+    SceneImage { pixels: Image::from_vec(8, 8, pixels.collect()).unwrap(), wrap: ImageWrap::Clamp }
 }
 
 fn rect(x0: f64, y0: f64, x1: f64, y1: f64, color: Straight) -> Command {
@@ -47,7 +45,8 @@ fn at(image: &Image<[u8; 4]>, x: usize, y: usize) -> [u8; 4] {
 #[test]
 fn a_rectangle_covers_its_pixels_and_half_of_those_that_it_halves() {
     let picture =
-        render_image(&scene(vec![rect(8.0, 8.0, 16.5, 16.0, RED)]), &Settings::new(64, 48)).unwrap();
+        render_image(&scene(vec![rect(8.0, 8.0, 16.5, 16.0, RED)]), &Settings::new(64, 48))
+            .unwrap();
     assert_eq!(at(&picture, 7, 8), [255; 4]);
     assert_eq!(at(&picture, 8, 8), [255, 0, 0, 255]);
     assert_eq!(at(&picture, 15, 15), [255, 0, 0, 255]);
@@ -193,8 +192,7 @@ impl Sink for Full {
 #[test]
 fn a_failing_sink_ends_the_run() {
     let mut sink = Full(0);
-    let outcome =
-        render(&scene(vec![]), &Settings::new(100, 5000), &mut sink, &Control::default());
+    let outcome = render(&scene(vec![]), &Settings::new(100, 5000), &mut sink, &Control::default());
     assert!(matches!(outcome, Err(RenderError::Sink("disk full"))));
     assert_eq!(sink.0, 2);
 }

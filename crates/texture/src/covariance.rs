@@ -80,41 +80,20 @@ impl Covariance {
             | (self.vv * limits.radius_squared > v * v)
     }
 
-    /// Brings the rare ellipse within bounds: not thinner than a texel, not larger than the budget,
-    /// not reaching too far along either axis of the level.
+    /// Brings the rare ellipse within bounds: not reaching too far along an axis of one texel, not
+    /// larger than the budget, and above all not thinner than a texel.
     pub(crate) fn mend(self, frame: &Frame, limits: &Limits) -> Self {
-        self.floored().within_area(limits).within_level(frame, limits)
-    }
-
-    /// The same with no variance along any axis below [`LEAST_VARIANCE`].
-    fn floored(self) -> Self {
-        let (x, y) = (self.uu - self.vv, 2.0 * self.uv);
+        let s = self.within_level(frame, limits);
+        let (x, y) = (s.uu - s.vv, 2.0 * s.uv);
         let h = sqrt(x * x + y * y);
-        let v1 = 0.5 * (self.uu + self.vv + h);
-        if v1 < LEAST_VARIANCE {
-            let v = LEAST_VARIANCE;
-            return Self { uu: v, uv: 0.0, vv: v, det: v * v };
-        }
-        let v2 = self.det / v1;
-        if v2 >= LEAST_VARIANCE {
-            return self;
-        }
-        let k = if h > 0.0 { 0.5 * (LEAST_VARIANCE - v2) / h } else { 0.0 };
-        Self {
-            uu: self.uu + k * (h - x),
-            uv: self.uv - k * y,
-            vv: self.vv + k * (h + x),
-            det: v1 * LEAST_VARIANCE,
-        }
-    }
-
-    /// Shrinks to the largest area, πR²√det, keeping the shape.
-    fn within_area(self, limits: &Limits) -> Self {
-        if self.det <= limits.most_det {
-            return self;
-        }
-        let k = sqrt(limits.most_det / self.det);
-        Self { uu: self.uu * k, uv: self.uv * k, vv: self.vv * k, det: limits.most_det }
+        let v1 = (0.5 * (s.uu + s.vv + h)).max(LEAST_VARIANCE);
+        let v2 = (s.det / v1).max(LEAST_VARIANCE);
+        let k = sqrt((limits.most_det / (v1 * v2)).min(1.0));
+        let v2 = (v2 * k).max(LEAST_VARIANCE);
+        let v1 = v1.min(limits.most_det / v2);
+        // The same axes: [[x, y], [y, −x]]/h is the difference of the projectors onto them.
+        let (sum, part) = (0.5 * (v1 + v2), if h > 0.0 { 0.5 * (v1 - v2) / h } else { 0.0 });
+        Self { uu: sum + part * x, uv: part * y, vv: sum - part * x, det: v1 * v2 }
     }
 
     /// Squeezes along each axis so that the ellipse's half-width there is what the level allows.

@@ -18,8 +18,9 @@ pub(crate) struct Frame {
     pub(crate) scale: [f64; 2],
     /// The variance that the pyramid has added so far, in squared texels of level 0.
     pub(crate) blurred: [f64; 2],
-    /// How far an ellipse may reach from its centre: one wrap of the level beyond its half, and a
-    /// texel.
+    /// How far an ellipse may reach from its centre: no bound, except along an axis of one texel,
+    /// where there is nothing to see. Anywhere else, an ellipse that is cut short of its length
+    /// aliases: over a repeated texture it may well cross many repeats.
     pub(crate) most: [f64; 2],
     /// The size within which a walk takes the short way; none where an index would not fit 31 bits.
     pub(crate) size: [f64; 2],
@@ -51,7 +52,7 @@ impl Level {
         let mut texels = Vec::new();
         texels.try_reserve_exact(len).map_err(|_| TextureError::OutOfMemory { bytes })?;
         texels.resize(len, [0.0; 4]);
-        let most = [width, height].map(|n| 1.5 * n as f64 + 1.0);
+        let most = [width, height].map(|n| if n == 1 { 2.5 } else { f64::INFINITY });
         let size = if len < SHORT { [width as f64, height as f64] } else { [0.0; 2] };
         let frame = Frame { scale: [1.0; 2], blurred: [0.0; 2], most, size };
         Ok(Self { width, height, stride, texels, frame })

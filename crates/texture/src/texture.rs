@@ -4,7 +4,6 @@ use crate::engine::{Engine, Scalar, Vector};
 use crate::ewa::{self, Limits};
 use crate::level::{LARGEST, Level, stride};
 use crate::point::{bilinear, lerp, nearest};
-use crate::srgb::decode_table;
 use crate::wrap::Nearer;
 use crate::{
     Footprint, LevelMode, Levels, PixelFilter, Sampler, Simd, TextureError, TextureOptions, Wrap,
@@ -13,6 +12,7 @@ use crate::{
 use alloc::vec::Vec;
 use fearless_simd::dispatch;
 use scumble_geometry::{DVec2, Homography};
+use scumble_pixel::srgb::decode8;
 use scumble_pixel::{ImageView, Premul, WorkingSpace};
 
 /// An image made ready to be filtered: its pyramid, premultiplied, in the working space.
@@ -278,7 +278,10 @@ fn count(width: usize, height: usize, levels: Levels) -> usize {
 
 /// Level 0: bytes to the working space, alpha multiplied in.
 fn decode(image: ImageView<'_, [u8; 4]>, space: WorkingSpace) -> Result<Level, TextureError> {
-    let table = decode_table(space);
+    let table: [f32; 256] = core::array::from_fn(|code| match space {
+        WorkingSpace::Srgb => code as f32 / 255.0,
+        WorkingSpace::Linear => decode8(code as u8),
+    });
     let mut base = Level::new(image.width(), image.height())?;
     for (y, out) in base.rows_mut().enumerate() {
         for (t, &[r, g, b, a]) in out.iter_mut().zip(image.row(y)) {

@@ -1,6 +1,8 @@
 //! The definition of coverage, as slowly as it can be said, and helpers around it.
 #![allow(dead_code, missing_docs, clippy::unwrap_used)]
 
+pub(crate) mod mesh;
+
 use proptest::prelude::*;
 use scumble_coverage::*;
 use std::collections::BTreeMap;
@@ -137,3 +139,21 @@ pub(crate) fn rule() -> impl Strategy<Value = FillRule> {
 
 /// A window away from the origin, so that negative pixels are looked at as well.
 pub(crate) const WINDOW: IntRect = IntRect::new(-3, -2, 21, 19);
+
+/// Every instruction set that this machine has.
+pub(crate) fn levels() -> Vec<Level> {
+    let best = Level::new();
+    #[cfg(target_arch = "x86_64")]
+    let mut levels: Vec<Level> = [
+        best.as_sse2().map(Level::Sse2),
+        best.as_sse4_2().map(Level::Sse4_2),
+        best.as_avx2().map(Level::Avx2),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    #[cfg(not(target_arch = "x86_64"))]
+    let mut levels = vec![Level::baseline()];
+    levels.push(best);
+    levels
+}

@@ -1,0 +1,156 @@
+//! Exact area against its definition.
+#![allow(missing_docs)]
+
+mod common;
+use common::mesh::{Mesh, Random};
+use common::*;
+use proptest::prelude::*;
+use scumble_coverage::*;
+use std::collections::BTreeMap;
+
+#[derive(Debug, Default, PartialEq)]
+struct Areas(BTreeMap<(i32, i32), f32>);
+
+impl AreaSink for Areas {
+    fn run(&mut self, y: i32, x0: i32, x1: i32) {
+        assert!(x0 < x1);
+        for x in x0..x1 {
+            assert_eq!(self.0.insert((x, y), 1.0), None, "pixel {x}, {y} named twice");
+        }
+    }
+    fn pixel(&mut self, x: i32, y: i32, area: f32) {
+        assert!(area > 0.0 && area <= 1.0);
+        assert_eq!(self.0.insert((x, y), area), None, "pixel {x}, {y} named twice");
+    }
+}
+
+fn areas(shape: Option<Shape>, clip: IntRect) -> Areas {
+    let mut out = Areas::default();
+    if let Some(shape) = shape {
+        shape.rasterize_area(clip, &mut Scratch::new(), &mut out);
+    }
+    out
+}
+
+/// The covered area of a pixel: the heights at which anything happens cut it into strips, in
+/// which every edge is straight and alone, so that the length at the middle is the mean.
+fn exact(contours: &[Vec<[i64; 2]>], rule: FillRule, x: i32, y: i32) -> f64 {
+    let mut edges = Vec::new();
+    for c in contours {
+        for (i, p) in c.iter().enumerate() {
+            let q = c[(i + 1) % c.len()];
+            if p[1] != q[1] {
+                let (t, b, w) = if p[1] < q[1] { (*p, q, 1) } else { (q, *p, -1) };
+                edges.push((t.map(|v| v as f64 / 256.0), b.map(|v| v as f64 / 256.0), w));
+            }
+        }
+    }
+    let (x, y) = (f64::from(x), f64::from(y));
+    let slope = |e: &([f64; 2], [f64; 2], i32)| (e.1[0] - e.0[0]) / (e.1[1] - e.0[1]);
+    let at = |e: &([f64; 2], [f64; 2], i32), h: f64| e.0[0] + (h - e.0[1]) * slope(e);
+    let mut heights = vec![y, y + 1.0];
+    for (i, e) in edges.iter().enumerate() {
+        heights.extend([e.0[1], e.1[1]]);
+        heights.extend([x, x + 1.0].map(|side| e.0[1] + (side - e.0[0]) / slope(e)));
+        for f in &edges[..i] {
+            heights.push((at(f, 0.0) - at(e, 0.0)) / (slope(e) - slope(f)));
+        }
+    }
+    heights.retain(|&h| h >= y && h <= y + 1.0);
+    heights.sort_by(f64::total_cmp);
+    let mut sum = 0.0;
+    for pair in heights.windows(2) {
+        let middle = 0.5 * (pair[0] + pair[1]);
+        let mut row: Vec<_> = edges
+            .iter()
+            .filter(|e| e.0[1] <= middle && middle < e.1[1])
+            .map(|e| (at(e, middle).clamp(x, x + 1.0), e.2))
+            .collect();
+        row.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut winding = 0;
+        let mut from = x;
+        for (at, w) in row.into_iter().chain([(x + 1.0, 0)]) {
+            let inside = match rule {
+                FillRule::NonZero => winding != 0,
+                FillRule::EvenOdd => winding % 2 != 0,
+            };
+            sum += if inside { (at - from) * (pair[1] - pair[0]) } else { 0.0 };
+            (from, winding) = (at, winding + w);
+        }
+    }
+    sum
+}
+
+fn check(contours: &[Vec<[i64; 2]>], rule: FillRule, actual: &Areas, clip: IntRect) {
+    for y in clip.y0..clip.y1 {
+        for x in clip.x0..clip.x1 {
+            let expected = exact(contours, rule, x, y);
+            let found = f64::from(actual.0.get(&(x, y)).copied().unwrap_or(0.0));
+            assert!((found - expected).abs() < 1e-6, "pixel {x}, {y}: {found} for {expected}");
+        }
+    }
+}
+
+const SMALL: IntRect = IntRect::new(-2, -1, 9, 8);
+
+proptest! {
+    #[test]
+    fn a_triangle_has_its_exact_area(p in [point(8), point(8), point(8)]) {
+        check(&[p.to_vec()], FillRule::NonZero, &areas(triangle(&p), SMALL), SMALL);
+    }
+
+    #[test]
+    fn a_polygon_has_its_exact_area(
+        contours in prop::collection::vec(prop::collection::vec(point(8), 1..8), 1..3),
+        rule in rule(),
+    ) {
+        check(&contours, rule, &areas(polygon(&contours, rule), SMALL), SMALL);
+    }
+
+    #[test]
+    fn tiles_give_the_same_bits(
+        contours in prop::collection::vec(prop::collection::vec(point(18), 3..8), 1..3),
+        rule in rule(),
+        tile in (1..12, 1..12),
+    ) {
+        for shape in [triangle(&contours[0]), polygon(&contours, rule)] {
+            let whole = areas(shape.clone(), WINDOW);
+            let Some(shape) = shape else { continue };
+            let mut parts = Areas::default();
+            let mut scratch = Scratch::new();
+            for y in (WINDOW.y0..WINDOW.y1).step_by(tile.1 as usize) {
+                for x in (WINDOW.x0..WINDOW.x1).step_by(tile.0 as usize) {
+                    let clip = IntRect::new(x, y, x + tile.0, y + tile.1).intersect(&WINDOW);
+                    shape.rasterize_area(clip, &mut scratch, &mut parts);
+                }
+            }
+            prop_assert_eq!(parts, whole);
+        }
+    }
+
+    #[test]
+    fn the_areas_of_a_mesh_add_up(seed in any::<u64>(), grain in 0..8u32) {
+        let mesh = Mesh::random(&mut Random::new(seed), 24, 1 << grain);
+        let mut sum: BTreeMap<(i32, i32), f64> = BTreeMap::new();
+        for t in &mesh.triangles {
+            for (at, area) in areas(triangle(t), WINDOW).0 {
+                *sum.entry(at).or_default() += f64::from(area);
+            }
+        }
+        let whole = areas(polygon(&[mesh.outline], FillRule::NonZero), WINDOW);
+        for (at, area) in &whole.0 {
+            let parts = sum.remove(at).unwrap_or(0.0);
+            prop_assert!((parts - f64::from(*area)).abs() < 1e-6, "{:?}: {} for {}", at, parts, area);
+        }
+        prop_assert!(sum.values().all(|&v| v < 1e-6));
+    }
+}
+
+#[test]
+fn overlaps_count_by_the_rule() {
+    let square = |d: i64| vec![[d, d], [d + 640, d], [d + 640, d + 640], [d, d + 640]];
+    for rule in [FillRule::NonZero, FillRule::EvenOdd] {
+        let contours = [square(0), square(192), square(320)];
+        check(&contours, rule, &areas(polygon(&contours, rule), SMALL), SMALL);
+    }
+}
