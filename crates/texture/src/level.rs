@@ -1,5 +1,8 @@
-use crate::{TextureError, Wrap};
-use alloc::vec::Vec;
+use crate::{Simd, TextureError, Wrap};
+use alloc::{vec, vec::Vec};
+use fearless_simd::dispatch;
+#[cfg(feature = "parallel")]
+use rayon::prelude::*;
 
 /// One level: rows of premultiplied RGBA in the working space, [`stride`] texels from row to row.
 #[derive(Debug, Clone)]
@@ -29,6 +32,9 @@ pub(crate) struct Frame {
 /// The largest side of a texture, in texels.
 pub(crate) const LARGEST: usize = 1 << 29;
 
+/// Rows that one thread fills at a time.
+const BLOCK: usize = 16;
+
 /// Texels of the largest level that a walk takes the short way in.
 const SHORT: usize = 1 << 31;
 
@@ -49,9 +55,12 @@ impl Level {
         let bytes = len
             .checked_mul(size_of::<[f32; 4]>())
             .ok_or(TextureError::TooLarge { width, height })?;
-        let mut texels = Vec::new();
-        texels.try_reserve_exact(len).map_err(|_| TextureError::OutOfMemory { bytes })?;
-        texels.resize(len, [0.0; 4]);
+        // Asked for first, so that a refusal is an error; then had zeroed from the system, which
+        // costs nothing until it is written.
+        let mut asked = Vec::<[f32; 4]>::new();
+        asked.try_reserve_exact(len).map_err(|_| TextureError::OutOfMemory { bytes })?;
+        drop(asked);
+        let texels = vec![[0.0; 4]; len];
         let most = [width, height].map(|n| if n == 1 { 2.5 } else { f64::INFINITY });
         let size = if len < SHORT { [width as f64, height as f64] } else { [0.0; 2] };
         let frame = Frame { scale: [1.0; 2], blurred: [0.0; 2], most, size };
@@ -73,10 +82,30 @@ impl Level {
         &self.texels[y * self.stride..][..self.width]
     }
 
-    /// All rows, to be written.
-    pub(crate) fn rows_mut(&mut self) -> impl Iterator<Item = &mut [[f32; 4]]> {
-        let width = self.width;
-        self.texels.chunks_exact_mut(self.stride).map(move |row| &mut row[..width])
+    /// Writes every row: `fill` gets its number, `scratch` texels to work in, and the row.
+    ///
+    /// Compiled for the best instructions there are, and with the feature `parallel` run on several
+    /// threads; neither changes what is written.
+    pub(crate) fn fill_rows(
+        &mut self,
+        scratch: usize,
+        fill: impl Fn(usize, &mut [[f32; 4]], &mut [[f32; 4]]) + Sync,
+    ) {
+        let (width, stride) = (self.width, self.stride);
+        let block = |(i, rows): (usize, &mut [[f32; 4]])| {
+            let mut scratch = vec![[0.0; 4]; scratch];
+            let rows = rows.chunks_exact_mut(stride).map(|row| &mut row[..width]).enumerate();
+            match Simd::best().0 {
+                None => rows.for_each(|(k, row)| fill(i * BLOCK + k, &mut scratch, row)),
+                Some(level) => dispatch!(level, _simd => for (k, row) in rows {
+                    fill(i * BLOCK + k, &mut scratch, row);
+                }),
+            }
+        };
+        #[cfg(feature = "parallel")]
+        self.texels.par_chunks_mut(BLOCK * stride).enumerate().for_each(block);
+        #[cfg(not(feature = "parallel"))]
+        self.texels.chunks_mut(BLOCK * stride).enumerate().for_each(block);
     }
 
     /// The texel at (x, y), which may lie outside.

@@ -48,7 +48,6 @@ impl Texture {
         }
         let mut levels = Vec::with_capacity(count(width, height, options.levels));
         let base = decode(image, options.space)?;
-        let mut average = mean(&base);
         levels.push(base);
         while let Some(last) = levels.last()
             && levels.len() < count(width, height, options.levels)
@@ -56,9 +55,10 @@ impl Texture {
             let next = halve(last, options.decimation, options.wrap)?;
             levels.push(next.over([width, height], options.decimation.variance()));
         }
-        if let [.., Level { width: 1, height: 1, texels, .. }] = &levels[..] {
-            average = texels[0];
-        }
+        let average = match &levels[..] {
+            [.., Level { width: 1, height: 1, texels, .. }] => texels[0],
+            _ => mean(&levels[0]),
+        };
         let TextureOptions { space, wrap, .. } = *options;
         let nearer = [Nearer::new(wrap, width), Nearer::new(wrap, height)];
         Ok(Self { levels, wrap, space, average, nearer, simd: Simd::best() })
@@ -283,13 +283,17 @@ fn decode(image: ImageView<'_, [u8; 4]>, space: WorkingSpace) -> Result<Level, T
         WorkingSpace::Linear => decode8(code as u8),
     });
     let mut base = Level::new(image.width(), image.height())?;
-    for (y, out) in base.rows_mut().enumerate() {
-        for (t, &[r, g, b, a]) in out.iter_mut().zip(image.row(y)) {
-            let alpha = f32::from(a) / 255.0;
-            let [r, g, b] = [r, g, b].map(|v| table[usize::from(v)] * alpha);
-            *t = [r, g, b, alpha];
-        }
-    }
+    base.fill_rows(
+        0,
+        #[inline(always)]
+        |y, _, out| {
+            for (t, &[r, g, b, a]) in out.iter_mut().zip(image.row(y)) {
+                let alpha = f32::from(a) / 255.0;
+                let [r, g, b] = [r, g, b].map(|v| table[usize::from(v)] * alpha);
+                *t = [r, g, b, alpha];
+            }
+        },
+    );
     Ok(base)
 }
 
