@@ -71,7 +71,8 @@ impl<'a> Plan<'a> {
     #[inline(always)]
     fn new(t: &'a Texture, f: &'a Footprint, mode: LevelMode, limits: &'a Limits) -> Self {
         if mode != LevelMode::Auto {
-            let pick = lod::pick(f, mode, t.levels.len());
+            let step = f.longest_step_squared();
+            let pick = lod::pick(step, lod::detail(step), mode, t.levels.len() - 1);
             return Self { t, f, limits, pick, sigma: None };
         }
         let (sigma, minor) = Covariance::of(&f.jacobian, limits.inverse_ratio);

@@ -3,7 +3,7 @@ use crate::decimate::halve;
 use crate::engine::{Engine, Scalar, Vector};
 use crate::ewa::{self, Limits};
 use crate::level::{LARGEST, Level, stride};
-use crate::point::{bilinear, lerp, nearest};
+use crate::point::{self, bilinear, nearest};
 use crate::wrap::Nearer;
 use crate::{
     Footprint, LevelMode, Levels, PixelFilter, Sampler, Simd, TextureError, TextureOptions, Wrap,
@@ -170,43 +170,23 @@ impl Texture {
         s: &Sampler,
         out: &mut [Premul],
     ) {
+        match s.pixel {
+            PixelFilter::Nearest => return point::fill(self, at, point_mode(s), nearest, out),
+            PixelFilter::Bilinear => return point::fill(self, at, point_mode(s), bilinear, out),
+            PixelFilter::Ewa => (),
+        }
         let limits = Limits::new(s);
-        if s.pixel == PixelFilter::Ewa && s.level == LevelMode::Auto && out.len() >= batch::WORTH {
+        if s.level == LevelMode::Auto && out.len() >= batch::WORTH {
             return batch::fill(self, engine, at, &limits, out);
         }
         for (i, out) in out.iter_mut().enumerate() {
-            *out = self.sample_one(engine, &at(i), s, &limits);
+            let f = self.nearer(&at(i));
+            *out = if f.is_finite() && f.is_bounded() {
+                into_range(ewa::sample(self, engine, &f, s.level, &limits))
+            } else {
+                self.average()
+            };
         }
-    }
-
-    #[inline(always)]
-    fn sample_one(
-        &self,
-        engine: impl Engine,
-        f: &Footprint,
-        s: &Sampler,
-        limits: &Limits,
-    ) -> Premul {
-        let f = self.nearer(f);
-        if !f.is_finite() {
-            return self.average();
-        }
-        into_range(match s.pixel {
-            PixelFilter::Nearest => self.blend_levels(
-                &f,
-                s,
-                #[inline(always)]
-                |l, u, v| nearest(&self.levels[l], self.wrap, u, v),
-            ),
-            PixelFilter::Bilinear => self.blend_levels(
-                &f,
-                s,
-                #[inline(always)]
-                |l, u, v| bilinear(&self.levels[l], self.wrap, u, v),
-            ),
-            PixelFilter::Ewa if !f.is_bounded() => self.average,
-            PixelFilter::Ewa => ewa::sample(self, engine, &f, s.level, limits),
-        })
     }
 
     /// How many texels [`Texture::sample`] reads for a footprint, those of weight 0 included.
@@ -222,7 +202,9 @@ impl Texture {
             PixelFilter::Ewa if !f.is_bounded() => return 0,
             PixelFilter::Ewa => return ewa::cost(self, &f, s.level, &Limits::new(s)),
         };
-        let two = lod::pick(&f, point_mode(s), self.levels.len()).coarser > 0.0;
+        let step = f.longest_step_squared();
+        let pick = lod::pick(step, lod::detail(step), point_mode(s), self.levels.len() - 1);
+        let two = pick.coarser > 0.0;
         if two { 2 * each } else { each }
     }
 
@@ -238,24 +220,6 @@ impl Texture {
     /// What stands for a footprint that reaches infinitely far.
     pub(crate) fn average(&self) -> Premul {
         into_range(self.average)
-    }
-
-    /// One level, or two of them blended; `filter` gets the level and the centre in its texels.
-    #[inline(always)]
-    fn blend_levels(
-        &self,
-        f: &Footprint,
-        s: &Sampler,
-        filter: impl Fn(usize, f64, f64) -> [f32; 4],
-    ) -> [f32; 4] {
-        let pick = lod::pick(f, point_mode(s), self.levels.len());
-        let [su, sv] = self.levels[pick.level].frame.scale;
-        let fine = filter(pick.level, f.u * su, f.v * sv);
-        if pick.coarser == 0.0 {
-            return fine;
-        }
-        let [su, sv] = self.levels[pick.level + 1].frame.scale;
-        lerp(fine, filter(pick.level + 1, f.u * su, f.v * sv), pick.coarser)
     }
 }
 
