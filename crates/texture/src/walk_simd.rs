@@ -179,12 +179,12 @@ impl<S: Simd> Sums<S> {
     #[inline(always)]
     fn add(&mut self, weights: f32x16<S>, fetch: impl Fn(usize) -> Option<f32x16<S>>) {
         let centres = f32x16::block_splat(self.centre);
-        self.weights = self.weights + weights;
+        self.weights += weights;
         let (ab, cd) = weights.split();
         let ((a, b), (c, d)) = (ab.split(), cd.split());
         for (r, weight) in [a, b, c, d].into_iter().enumerate() {
             if let Some(run) = fetch(r) {
-                self.texels = self.texels + expand(weight) * (run - centres);
+                self.texels += expand(weight) * (run - centres);
             }
         }
     }

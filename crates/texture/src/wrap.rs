@@ -75,7 +75,7 @@ impl Nearer {
             // The bounds catch the last bit of the product, and positions of 2⁵² periods and more.
             (u - self.period * crate::math::floor(u * self.inverse)).max(0.0).min(self.period)
         } else {
-            u.max(-FAR).min(FAR)
+            u.clamp(-FAR, FAR)
         }
     }
 }
