@@ -22,14 +22,16 @@ impl FixedPoint {
     }
 }
 
-/// 2⁵¹: [`floor`] is right up to here, and beyond twice this there is nothing to round.
-const HALVES_END: f64 = 2_251_799_813_685_248.0;
-
 /// floor(256 v + ½) as a real number: no bounds yet.
 pub(crate) fn snap_real(v: f64) -> f64 {
     let scaled = v * 256.0;
-    // Where every f64 is whole, adding ½ would round.
-    if scaled.abs() < HALVES_END { floor(scaled + 0.5) } else { scaled }
+    // From 2⁵² on every f64 is whole, and adding ½ would round.
+    if scaled.abs() >= 4_503_599_627_370_496.0 {
+        return scaled;
+    }
+    let raised = scaled + 0.5;
+    let whole = raised as i64 as f64;
+    if whole > raised { whole - 1.0 } else { whole }
 }
 
 #[inline]

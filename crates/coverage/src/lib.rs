@@ -48,11 +48,13 @@
 extern crate alloc;
 
 mod accumulate;
+mod conservative;
 mod edge;
 mod error;
 mod fixed;
 mod guard;
 mod hairline;
+mod interpolate;
 mod mask;
 mod pattern;
 mod polygon;
@@ -61,11 +63,13 @@ mod shape;
 mod sink;
 mod traversal;
 mod triangle;
+mod wide;
 
 pub use error::CoverageError;
 pub use fearless_simd::Level;
 pub use fixed::FixedPoint;
 pub use hairline::hairline;
+pub use interpolate::{Barycentric, BarycentricRow, Perspective, PerspectiveWeights};
 pub use mask::SampleMask;
 pub use pattern::SamplePattern;
 pub use scratch::Scratch;

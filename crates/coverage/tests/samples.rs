@@ -85,6 +85,38 @@ proptest! {
     }
 }
 
+proptest! {
+    /// Beyond the guard band the edges are rounded where they cross its border, so that a sample closer than 1/256
+    /// pixel to an edge may go either way. All others must not.
+    #[test]
+    fn huge_shapes_are_right_near_the_origin(
+        p in prop::array::uniform3(prop::array::uniform2(-(1i64 << 44)..1 << 44)),
+        near in point(4),
+        swap in 0..4usize,
+    ) {
+        let mut p = p;
+        if let Some(corner) = p.get_mut(swap) {
+            *corner = near;
+        }
+        let pattern = SamplePattern::standard(4).unwrap();
+        let found = covered(&p, IntRect::new(-3, -3, 8, 8), &pattern);
+        for ((x, y), s) in (-3..8).flat_map(|y| (-3..8).map(move |x| (x, y))).zip((0..4).cycle()) {
+            let o = pattern.offsets()[s].map(i64::from);
+            let at = [i64::from(x) * 256 + o[0], i64::from(y) * 256 + o[1]];
+            let close = (0..3).any(|i| {
+                let (a, b) = (p[i], p[(i + 1) % 3]);
+                let (dx, dy) = ((b[0] - a[0]) as f64, (b[1] - a[1]) as f64);
+                let e = i128::from(b[0] - a[0]) * i128::from(at[1] - a[1])
+                    - i128::from(b[1] - a[1]) * i128::from(at[0] - a[0]);
+                (e as f64).abs() <= dx.hypot(dy)
+            });
+            let inside = winding(&[p.to_vec()], at[0], at[1]) != 0;
+            let mask = found.masks.get(&(x, y)).copied().unwrap_or(0);
+            prop_assert!(close || (mask >> s & 1 == 1) == inside, "{} {} {}", x, y, s);
+        }
+    }
+}
+
 #[test]
 fn a_square_on_the_grid_is_seen_exactly() {
     let square = vec![[0, 0], [20 * 256, 0], [20 * 256, 18 * 256], [0, 18 * 256]];

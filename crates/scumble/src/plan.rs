@@ -79,7 +79,7 @@ pub(crate) fn build(scene: &Scene, settings: &Settings, surfaces: Vec<Option<Sur
     let canvas = IntRect::new(0, 0, settings.width as i32, settings.height as i32);
     let mut planner = Planner {
         settings,
-        view: scene.view.transform(settings.width, settings.height).into(),
+        view: scene.view.homography(settings.width, settings.height),
         canvas,
         layer: 0,
         plan: Plan {

@@ -41,14 +41,14 @@ const ROOMS: [Room; 12] = [
     library(
         "scumble-texture",
         &["scumble-geometry", "scumble-pixel"],
-        &["fearless_simd", "glam", "image", "rayon"],
+        &["fearless_simd", "glam", "image", "libm", "rayon"],
     ),
     library("scumble-framebuffer", &["scumble-pixel"], &["fearless_simd"]),
     library("scumble-scene", &["scumble-geometry", "scumble-pixel"], &["glam"]),
     library(
         "scumble-svg",
         &["scumble-scene", "scumble-geometry", "scumble-pixel"],
-        &["glam", "image", "roxmltree", "usvg"],
+        &["glam", "image", "roxmltree", "svgtypes", "usvg"],
     ),
     library(
         "scumble",

@@ -115,7 +115,7 @@ fn arcs() -> String {
     for i in 0..6 {
         let angle = i * 30;
         body += &format!(
-            "<path d=\"M250,85 a70,24 {angle} 1 1 0.1,0\" fill=\"#7a5195\" fill-opacity=\"0.25\" stroke=\"#331a40\"/>\n"
+            "<path d=\"M240,105 a46,16 {angle} 1 1 0.1,0\" fill=\"#7a5195\" fill-opacity=\"0.25\" stroke=\"#331a40\"/>\n"
         );
     }
     body += "<!-- radii too small are scaled up; a zero radius is a line -->\n";
@@ -138,7 +138,7 @@ fn arcs() -> String {
             n(b.1)
         );
     }
-    body + "<path d=\"M230,270 a30,45 0 0 1 60,0 a30,45 0 0 0 60,0 a20,60 20 0 1 40,-20\" fill=\"none\" stroke=\"#00798c\" stroke-width=\"8\" stroke-linejoin=\"round\"/>"
+    body + "<path d=\"M220,220 a30,45 0 0 1 60,0 a30,45 0 0 0 60,0 a20,60 20 0 1 40,-20\" fill=\"none\" stroke=\"#00798c\" stroke-width=\"8\" stroke-linejoin=\"round\"/>"
 }
 
 const USE: &str = r##"
