@@ -76,6 +76,17 @@ impl Piece {
         }
     }
 
+    /// The height at which the edge enters the row.
+    pub(crate) fn start(&self) -> f64 {
+        self.start
+    }
+
+    /// x at a height.
+    #[inline]
+    pub(crate) fn at(&self, y: f64) -> f64 {
+        self.slope.at(y)
+    }
+
     #[inline]
     fn reach(&self, y: f64) -> Reach {
         let x = self.slope.at(y);
