@@ -17,9 +17,10 @@
 //! # Memory
 //!
 //! A pixel whose samples are all alike is stored once: 20 bytes a pixel, 80 KiB for a tile of
-//! 64×64. It gets storage for its samples, 16 bytes each, when a partial mask first tells them
-//! apart, and gives it back when an opaque colour covers it whole. The worst case, every pixel of
-//! a 64×64 tile split at 16 samples, is 1.1 MiB; what a tile has allocated it keeps for the next.
+//! 64×64. It gets storage for its n samples, 16·n + 12 bytes, when a partial mask first tells them
+//! apart, and gives it back when an opaque colour covers it whole. [`Tile::max_bytes`] is the worst
+//! case; for 64×64 at 16 samples, every pixel split, 1.1 MiB. What a tile has allocated it keeps
+//! for the next.
 //!
 //! # Example
 //!
@@ -41,7 +42,7 @@
 //! assert_eq!(codes[2], [128, 128, 128, 255]);
 //! assert_eq!(codes[3], [255, 255, 255, 255]);
 //! ```
-#![cfg_attr(not(feature = "std"), no_std)]
+#![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 extern crate alloc;
 
@@ -49,5 +50,5 @@ mod encode;
 mod samples;
 mod tile;
 
-pub use encode::encode_row;
+pub use encode::{encode_row, encode_row_dithered, encode_row16};
 pub use tile::Tile;

@@ -13,6 +13,11 @@ impl Slot {
         self == Self::UNIFORM
     }
 
+    /// Looks at all of them, since a loop that could stop early would not fill vectors.
+    pub(crate) fn all_uniform(slots: &[Self]) -> bool {
+        slots.iter().fold(0, |any, slot| any | slot.0) == 0
+    }
+
     fn index(self) -> usize {
         self.0 as usize - 1
     }
@@ -23,6 +28,8 @@ impl Slot {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct SampleStore {
     per_pixel: usize,
+    /// Slots that there can be: one a pixel.
+    most: usize,
     colors: Vec<Premul>,
     /// Per slot: the samples written since they were last seen to differ. Once all have been, they
     /// are worth comparing.
@@ -31,9 +38,13 @@ pub(crate) struct SampleStore {
 }
 
 impl SampleStore {
+    /// Bytes that a slot takes beside its samples.
+    pub(crate) const OVERHEAD: usize = size_of::<u64>() + size_of::<Slot>();
+
     /// Forgets every slot, keeps the allocation.
-    pub(crate) fn reset(&mut self, per_pixel: usize) {
+    pub(crate) fn reset(&mut self, per_pixel: usize, pixels: usize) {
         self.per_pixel = per_pixel;
+        self.most = pixels;
         self.colors.clear();
         self.touched.clear();
         self.free.clear();
@@ -46,9 +57,22 @@ impl SampleStore {
             self.touched[slot.index()] = 0;
             return slot;
         }
+        if self.touched.len() == self.touched.capacity() {
+            self.grow();
+        }
         self.colors.resize(self.colors.len() + self.per_pixel, color);
         self.touched.push(0);
         Slot(self.touched.len() as u32)
+    }
+
+    /// Doubles the room, but never beyond a slot for every pixel.
+    #[cold]
+    fn grow(&mut self) {
+        let slots = self.touched.len();
+        let more = slots.max(16).min(self.most.saturating_sub(slots));
+        self.touched.reserve_exact(more);
+        self.free.reserve_exact(slots + more);
+        self.colors.reserve_exact((slots + more) * self.per_pixel - self.colors.len());
     }
 
     /// Gives a slot back.
@@ -80,6 +104,17 @@ impl SampleStore {
     }
 }
 
+#[cfg(test)]
+impl SampleStore {
+    pub(crate) fn color_capacity(&self) -> usize {
+        self.colors.capacity()
+    }
+
+    pub(crate) fn slot_capacity(&self) -> usize {
+        self.touched.capacity().max(self.free.capacity())
+    }
+}
+
 /// Equality of bits: what it calls equal nothing downstream can tell apart.
 pub(crate) fn same_bits(a: Premul, b: Premul) -> bool {
     a.0.map(f32::to_bits) == b.0.map(f32::to_bits)
@@ -91,16 +126,27 @@ pub(crate) fn same_bits(a: Premul, b: Premul) -> bool {
 /// The differences are added in four chains, sample i to chain i mod 4, and then
 /// (0 + 1) + (2 + 3): a fixed order that a machine of any vector width can follow.
 pub(crate) fn mean(samples: &[Premul]) -> Premul {
-    let Some(&Premul(first)) = samples.first() else { return Premul::TRANSPARENT };
-    let mut chains = [[0.0_f32; 4]; 4];
-    for group in samples.chunks(4) {
-        for (chain, sample) in chains.iter_mut().zip(group) {
-            for c in 0..4 {
-                chain[c] += sample.0[c] - first[c];
-            }
-        }
+    let Some(&first) = samples.first() else { return Premul::TRANSPARENT };
+    let mut chains = [[0.0; 4]; 4];
+    let (groups, rest) = samples.as_chunks::<4>();
+    for group in groups {
+        add_differences(&mut chains, group, first);
+    }
+    if !rest.is_empty() {
+        // Filled up with the first sample, which adds nothing.
+        let mut group = [first; 4];
+        group[..rest.len()].copy_from_slice(rest);
+        add_differences(&mut chains, &group, first);
     }
     let n = samples.len() as f32;
     let [c0, c1, c2, c3] = chains;
-    Premul(core::array::from_fn(|c| first[c] + ((c0[c] + c1[c]) + (c2[c] + c3[c])) / n))
+    Premul(core::array::from_fn(|c| first.0[c] + ((c0[c] + c1[c]) + (c2[c] + c3[c])) / n))
+}
+
+/// Over arrays, whose lengths the compiler knows: so the chains stay in registers.
+#[inline]
+fn add_differences(chains: &mut [[f32; 4]; 4], group: &[Premul; 4], first: Premul) {
+    for (chain, sample) in chains.iter_mut().zip(group) {
+        *chain = core::array::from_fn(|c| chain[c] + (sample.0[c] - first.0[c]));
+    }
 }

@@ -46,7 +46,27 @@ impl Tile {
         self.colors.resize(len, background);
         self.slots.clear();
         self.slots.resize(len, Slot::UNIFORM);
-        self.store.reset(self.samples as usize);
+        self.store.reset(self.samples as usize, len);
+    }
+
+    /// The most bytes that a tile of this shape takes: what it takes if an edge crosses every
+    /// pixel. Shapes are brought into range as by [`reset`](Self::reset).
+    ///
+    /// ```
+    /// use scumble_framebuffer::Tile;
+    ///
+    /// assert_eq!(Tile::max_bytes(64, 64, 1), 80 << 10);
+    /// assert_eq!(Tile::max_bytes(64, 64, 16), 1152 << 10);
+    /// ```
+    #[must_use]
+    pub fn max_bytes(width: u32, height: u32, samples: u32) -> u64 {
+        let pixels = u64::from(width.min(Self::MAX_SIDE)) * u64::from(height.min(Self::MAX_SIDE));
+        let uniform = size_of::<Premul>() + size_of::<Slot>();
+        let split = match samples.clamp(1, 64) as usize {
+            1 => 0,
+            n => n * size_of::<Premul>() + SampleStore::OVERHEAD,
+        };
+        pixels * (uniform + split) as u64
     }
 
     /// Columns.
@@ -72,7 +92,7 @@ impl Tile {
         let bottom = y.saturating_add(h).min(self.height());
         for row in y..bottom {
             let span = self.span(x, row, w as usize);
-            if self.slots[span.clone()].iter().all(|slot| slot.is_uniform()) {
+            if self.is_uniform(span.clone()) {
                 blend_all(&mut self.colors[span], color);
             } else {
                 span.for_each(|i| self.blend_pixel(i, color));
@@ -82,8 +102,15 @@ impl Tile {
 
     /// Blends one colour a pixel over every sample of the pixels from (`x`, `y`) to the right.
     pub fn blend_run(&mut self, x: u32, y: u32, colors: &[Premul]) {
-        for (i, &color) in self.span(x, y, colors.len()).zip(colors) {
-            self.blend_pixel(i, color);
+        let span = self.span(x, y, colors.len());
+        if self.is_uniform(span.clone()) {
+            for (below, &color) in self.colors[span].iter_mut().zip(colors) {
+                blend(below, color);
+            }
+        } else {
+            for (i, &color) in span.zip(colors) {
+                self.blend_pixel(i, color);
+            }
         }
     }
 
@@ -121,15 +148,7 @@ impl Tile {
         for y in 0..self.height().min(layer.height()) {
             let below = self.span(0, y, layer.width);
             for (i, j) in below.zip(layer.span(0, y, self.width)) {
-                let slot = layer.slots[j];
-                if slot.is_uniform() {
-                    self.blend_pixel(i, layer.colors[j].scaled(opacity));
-                } else if layer.samples == self.samples {
-                    let colors = layer.store.get(slot).iter().map(|c| c.scaled(opacity));
-                    self.blend_split(i, self.full, colors);
-                } else {
-                    self.blend_pixel(i, layer.resolve(j).scaled(opacity));
-                }
+                self.composite_pixel(i, layer, j, opacity);
             }
         }
     }
@@ -137,8 +156,13 @@ impl Tile {
     /// The pixels of a row, each the mean of its samples, from column 0 on; as many as both `out`
     /// and the row have. The mean of equal samples is their value, to the bit.
     pub fn resolve_row(&self, y: u32, out: &mut [Premul]) {
-        for (i, pixel) in self.span(0, y, out.len()).zip(out) {
-            *pixel = self.resolve(i);
+        let span = self.span(0, y, out.len());
+        if self.is_uniform(span.clone()) {
+            out[..span.len()].copy_from_slice(&self.colors[span]);
+        } else {
+            for (i, pixel) in span.zip(out) {
+                *pixel = self.resolve(i);
+            }
         }
     }
 
@@ -158,16 +182,38 @@ impl Tile {
         start..start + len.min(self.width - x)
     }
 
+    /// Whether no pixel of the span is split.
+    fn is_uniform(&self, span: Range<usize>) -> bool {
+        Slot::all_uniform(&self.slots[span])
+    }
+
     fn index(&self, x: u32, y: u32) -> Option<usize> {
         self.span(x, y, 1).next()
     }
 
     /// Whether blending `color` over some samples of the pixel is known to change none of them.
     fn is_idle(&self, i: usize, color: Premul) -> bool {
-        same_bits(color, Premul::TRANSPARENT)
-            || (color.alpha() == 1.0
-                && self.slots[i].is_uniform()
-                && same_bits(self.colors[i], color))
+        let alpha = color.alpha();
+        if alpha == 1.0 {
+            self.slots[i].is_uniform() && same_bits(self.colors[i], color)
+        } else {
+            alpha == 0.0 && same_bits(color, Premul::TRANSPARENT)
+        }
+    }
+
+    /// Pixel `j` of the layer over pixel `i`.
+    fn composite_pixel(&mut self, i: usize, layer: &Self, j: usize, opacity: f32) {
+        let slot = layer.slots[j];
+        if !slot.is_uniform() && layer.samples == self.samples {
+            let colors = layer.store.get(slot).iter().map(|c| c.scaled(opacity));
+            self.blend_split(i, self.full, colors);
+            return;
+        }
+        let color = layer.resolve(j);
+        // Most of a layer is empty.
+        if !same_bits(color, Premul::TRANSPARENT) {
+            self.blend_pixel(i, color.scaled(opacity));
+        }
     }
 
     /// `color` over every sample.

@@ -66,6 +66,10 @@ pub fn clip_polygon_to_rect(polygon: &mut Vec<DVec2>, rect: Rect, scratch: &mut 
     clip(scratch, |p| p.x <= rect.x1, |a, b| cut_x(a, b, rect.x1), polygon);
     clip(polygon, |p| p.y >= rect.y0, |a, b| cut_y(a, b, rect.y0), scratch);
     clip(scratch, |p| p.y <= rect.y1, |a, b| cut_y(a, b, rect.y1), polygon);
+    // Only near the largest number that there is.
+    if polygon.iter().any(|p| !p.is_finite()) {
+        polygon.clear();
+    }
 }
 
 /// a + (b − a)·t, but never outside [a, b], and without overflow in b − a.

@@ -7,3 +7,14 @@ pub enum FillRule {
     /// Inside where the winding number is odd.
     EvenOdd,
 }
+
+impl FillRule {
+    /// Whether a point around which an outline winds `winding` times is inside.
+    #[must_use]
+    pub const fn is_inside(self, winding: i64) -> bool {
+        match self {
+            Self::NonZero => winding != 0,
+            Self::EvenOdd => winding % 2 != 0,
+        }
+    }
+}

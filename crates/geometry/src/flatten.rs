@@ -3,13 +3,15 @@
 //! A Bézier curve under a homography is a rational Bézier curve: its control points are the
 //! images (X, Y, w) of the control points. De Casteljau's halving works on those as on any
 //! others, so the curve is cut in halves in homogeneous space, and a piece is straight enough when
-//! its *projected* control points lie within the tolerance of its projected chord: with positive
-//! weights the curve stays in their convex hull. No estimate of the curvature is needed, and only
-//! + − × ÷ and comparisons are used, so that the same path gives the same points everywhere.
+//! its *projected* control points lie so close to its projected chord that the curve, which is a
+//! mean of them with positive weights, lies within the tolerance. No estimate of the curvature is
+//! needed, and only + − × ÷ and comparisons are used, so that the same path gives the same points
+//! everywhere.
 
 use crate::path::Cursor;
 use crate::{Contours, DVec2, DVec3, Homography, Path, PathElement, clip_polygon};
 use alloc::vec::Vec;
+use core::ops::{Add, Mul};
 
 impl Path {
     /// How often a curve is halved at most: it becomes at most 4096 edges.
@@ -57,8 +59,7 @@ const LEAST_TOLERANCE_PX: f64 = 1.0 / 1024.0;
 
 struct Flattener<'a> {
     transform: &'a Homography,
-    tolerance_squared: f64,
-    near_w: f64,
+    flatness: Flatness,
     /// The contour under way, in homogeneous screen coordinates.
     contour: Vec<DVec3>,
     clipped: Vec<DVec3>,
@@ -70,8 +71,10 @@ impl<'a> Flattener<'a> {
         let tolerance = tolerance_px.max(LEAST_TOLERANCE_PX);
         Self {
             transform,
-            tolerance_squared: tolerance * tolerance,
-            near_w: transform.near_w(),
+            flatness: Flatness {
+                tolerance_squared: tolerance * tolerance,
+                near_w: transform.near_w(),
+            },
             contour: Vec::new(),
             clipped: Vec::new(),
             out: Contours::new(),
@@ -86,11 +89,11 @@ impl<'a> Flattener<'a> {
         match *element {
             PathElement::QuadTo(c, to) => {
                 let curve = [start, self.at(c), self.at(to)];
-                self.curve(&curve, 0);
+                self.curve(&curve);
             }
             PathElement::CubicTo(c0, c1, to) => {
                 let curve = [start, self.at(c0), self.at(c1), self.at(to)];
-                self.curve(&curve, 0);
+                self.curve(&curve);
             }
             PathElement::LineTo(to) => {
                 let to = self.at(to);
@@ -105,19 +108,38 @@ impl<'a> Flattener<'a> {
     }
 
     /// Pushes the points of a curve after its first.
-    fn curve<const N: usize>(&mut self, curve: &[DVec3; N], depth: u32) {
-        let points = self.contour.len() + self.out.points.len();
-        if depth >= Path::MAX_DEPTH || points >= Path::MAX_POINTS || self.is_flat(curve) {
-            self.contour.push(curve[N - 1]);
-            return;
-        }
-        let (first, second) = halve(curve);
-        self.curve(&first, depth + 1);
-        self.curve(&second, depth + 1);
+    fn curve<const N: usize>(&mut self, curve: &[DVec3; N]) {
+        let (flatness, contour) = (self.flatness, &mut self.contour);
+        let room = Path::MAX_POINTS.saturating_sub(contour.len() + self.out.points.len());
+        let limit = contour.len() + room;
+        subdivide(curve, 0, &|c| flatness.allows(c), limit, contour);
     }
 
-    /// Whether the chord can stand for the curve.
-    fn is_flat<const N: usize>(&self, curve: &[DVec3; N]) -> bool {
+    /// Ends the contour under way: clips it, projects it, appends it.
+    fn finish(&mut self) {
+        let near_w = self.flatness.near_w;
+        let finite = self.contour.iter().all(|p| p.is_finite());
+        if self.contour.iter().any(|p| p.z < near_w) {
+            clip_polygon(&self.contour, near_w, &mut self.clipped);
+            core::mem::swap(&mut self.contour, &mut self.clipped);
+        }
+        let points = self.contour.iter().map(|p| p.truncate() / p.z);
+        if finite && self.contour.len() >= 3 && points.clone().all(|p| p.is_finite()) {
+            self.out.push(points);
+        }
+        self.contour.clear();
+    }
+}
+
+/// When a chord can stand for a curve.
+#[derive(Debug, Clone, Copy)]
+struct Flatness {
+    tolerance_squared: f64,
+    near_w: f64,
+}
+
+impl Flatness {
+    fn allows<const N: usize>(&self, curve: &[DVec3; N]) -> bool {
         if curve.iter().any(|p| !p.is_finite()) || curve.iter().all(|p| p.z < self.near_w) {
             return true;
         }
@@ -129,27 +151,52 @@ impl<'a> Flattener<'a> {
             return true;
         }
         let (from, to) = (points[0], points[N - 1]);
-        let inner = &points[1..N - 1];
-        inner.iter().all(|&p| distance_squared(p, from, to) <= self.tolerance_squared)
-    }
-
-    /// Ends the contour under way: clips it, projects it, appends it.
-    fn finish(&mut self) {
-        let finite = self.contour.iter().all(|p| p.is_finite());
-        if self.contour.iter().any(|p| p.z < self.near_w) {
-            clip_polygon(&self.contour, self.near_w, &mut self.clipped);
-            core::mem::swap(&mut self.contour, &mut self.clipped);
-        }
-        let points = self.contour.iter().map(|p| p.truncate() / p.z);
-        if finite && self.contour.len() >= 3 && points.clone().all(|p| p.is_finite()) {
-            self.out.push(points);
-        }
-        self.contour.clear();
+        let share = inner_share::<N>() * weight_ratio(curve);
+        let share = share / (share + 1.0 - inner_share::<N>());
+        let limit = self.tolerance_squared / (share * share);
+        points[1..N - 1].iter().all(|&p| distance_squared(p, from, to) <= limit)
     }
 }
 
+/// The largest sum that the weights of a Bézier curve's inner control points reach: ½ of a
+/// quadratic curve, ¾ of a cubic one. Since a distance is convex, the curve is at most this part
+/// of the way from the chord to the farthest of them.
+pub(crate) const fn inner_share<const N: usize>() -> f64 {
+    if N == 3 { 0.5 } else { 0.75 }
+}
+
+/// By how much the inner control points of a rational curve may weigh more than its ends.
+fn weight_ratio<const N: usize>(curve: &[DVec3; N]) -> f64 {
+    let inner = curve[1..N - 1].iter().fold(0.0f64, |max, p| max.max(p.z));
+    inner / curve[0].z.min(curve[N - 1].z)
+}
+
+/// Points of which means can be taken.
+pub(crate) trait Vector: Copy + Add<Output = Self> + Mul<f64, Output = Self> {}
+
+impl Vector for DVec2 {}
+impl Vector for DVec3 {}
+
+/// Pushes the points of a curve after its first, halving it until its chord is flat, but not
+/// beyond `limit` points in all.
+pub(crate) fn subdivide<P: Vector, const N: usize>(
+    curve: &[P; N],
+    depth: u32,
+    is_flat: &impl Fn(&[P; N]) -> bool,
+    limit: usize,
+    out: &mut Vec<P>,
+) {
+    if depth >= Path::MAX_DEPTH || out.len() >= limit || is_flat(curve) {
+        out.push(curve[N - 1]);
+        return;
+    }
+    let (first, second) = halve(curve);
+    subdivide(&first, depth + 1, is_flat, limit, out);
+    subdivide(&second, depth + 1, is_flat, limit, out);
+}
+
 /// De Casteljau at ½.
-fn halve<const N: usize>(curve: &[DVec3; N]) -> ([DVec3; N], [DVec3; N]) {
+fn halve<P: Vector, const N: usize>(curve: &[P; N]) -> ([P; N], [P; N]) {
     let (mut first, mut second) = (*curve, *curve);
     for (round, end) in first.iter_mut().enumerate() {
         *end = second[0];
@@ -168,7 +215,7 @@ fn is_far(points: &[DVec2]) -> bool {
 }
 
 /// The squared distance of a point from a segment.
-fn distance_squared(p: DVec2, from: DVec2, to: DVec2) -> f64 {
+pub(crate) fn distance_squared(p: DVec2, from: DVec2, to: DVec2) -> f64 {
     let (chord, offset) = (to - from, p - from);
     let t = (offset.dot(chord) / chord.length_squared()).clamp(0.0, 1.0);
     // A chord of length zero gives NaN: then its one point is the nearest.

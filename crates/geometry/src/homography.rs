@@ -29,8 +29,8 @@ impl Homography {
     }
 
     /// The map of the unit square onto a quad: (0, 0), (1, 0), (1, 1), (0, 1) go to the four
-    /// corners in order. Closed form, Heckbert 1989 §2.2.3; for a parallelogram the last row is
-    /// exactly (0, 0, 1) wherever the two diagonals' midpoints agree exactly.
+    /// corners in order. Closed form, Heckbert 1989 §2.2.3. For a parallelogram whose sides are
+    /// exact in f64 the last row is exactly (0, 0, 1).
     ///
     /// w is 1 at the first corner and, if the quad is convex, positive in the whole square. For a
     /// concave or self-crossing quad the map exists too, but w = 0 on a line through the square.

@@ -38,11 +38,13 @@ impl Interpolator {
         if let Some(p) = positions.iter().find(|p| !p.is_finite()) {
             return Err(GeometryError::NotFinite(p.truncate()));
         }
-        let origin = positions
-            .iter()
-            .map(|p| p.truncate() / p.z)
-            .find(|p| p.is_finite())
-            .ok_or(GeometryError::Singular)?;
+        // Of the vertices the one with the largest |w|: the others may lie far off the screen.
+        let nearer = |a: DVec3, b: DVec3| if b.z.abs() > a.z.abs() { b } else { a };
+        let anchor = nearer(nearer(positions[0], positions[1]), positions[2]);
+        let origin = anchor.truncate() / anchor.z;
+        if !origin.is_finite() {
+            return Err(GeometryError::Singular);
+        }
         let w = positions[0].z;
         let affine = w > 0.0 && positions.iter().all(|p| p.z == w);
         let local = positions.map(|p| {

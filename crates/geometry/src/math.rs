@@ -8,6 +8,11 @@ pub(crate) fn sqrt(v: f64) -> f64 {
     DVec2::new(v, 0.0).sqrt().x
 }
 
+/// ⌊v⌋.
+pub(crate) fn floor(v: f64) -> f64 {
+    DVec2::new(v, 0.0).floor().x
+}
+
 /// The largest power of two that is not greater than `v`, for positive normal `v`: dividing by it
 /// is exact.
 pub(crate) fn power_of_two_below(v: f64) -> f64 {

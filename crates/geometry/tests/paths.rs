@@ -47,20 +47,22 @@ proptest! {
         let contours = path.flatten(&map, tolerance);
         prop_assert!(contours.points.iter().all(|p| p.is_finite()));
         prop_assume!(corners.iter().all(|&w| w > 0.05));
-        prop_assert_eq!(contours.len(), 1);
+        // A curve that is as good as straight encloses nothing.
+        let ends = [map.project(p0).unwrap(), map.project(p3).unwrap()];
+        let polygon = if contours.is_empty() { &ends[..] } else { &contours.points };
         for i in 0..=200 {
             let t = f64::from(i) / 200.0;
             let s = 1.0 - t;
             let p = p0 * (s * s * s) + p1 * (3.0 * s * s * t) + p2 * (3.0 * s * t * t) + p3 * (t * t * t);
             let image = map.project(p).unwrap();
-            prop_assert!(distance_to(&contours.points, image) <= tolerance + 1e-9);
+            prop_assert!(distance_to(polygon, image) <= tolerance + 1e-9);
         }
     }
 
     #[test]
     fn hostile_paths_end(
         p in prop::collection::vec(any::<f64>(), 0..40), kinds in prop::collection::vec(0..5u8, 0..12),
-        m in prop::array::uniform3(any::<f64>()), tolerance in any::<f64>(),
+        m in prop::array::uniform3(any::<f64>()), tolerance in any::<f64>(), width in any::<f64>(),
     ) {
         let mut points = p.chunks_exact(2).map(|c| v(c[0], c[1])).cycle();
         let mut next = || points.next().unwrap_or(DVec2::ZERO);
@@ -78,6 +80,10 @@ proptest! {
         let contours = path.flatten(&map, tolerance);
         prop_assert!(contours.points.iter().all(|p| p.is_finite()));
         let _ = path.bounds();
+        let style = StrokeStyle { width, dashes: vec![p.first().copied().unwrap_or(1.0)], ..Default::default() };
+        let outline = path.stroke(&style, tolerance);
+        prop_assert!(outline.is_finite());
+        let _ = outline.flatten(&map, tolerance);
     }
 
     #[test]
@@ -135,6 +141,146 @@ fn contours_follow_the_elements() {
     assert_eq!(slices, [first, second]);
     let moved = path.transform(&Affine::translate(1.0, 2.0));
     assert_eq!(moved.elements()[0], PathElement::LineTo(v(6.0, 2.0)));
+}
+
+/// How often contours wind around a point.
+fn winding(contours: &Contours, p: DVec2) -> i32 {
+    let mut sum = 0;
+    for c in contours.iter() {
+        for (a, b) in c.iter().zip(c.iter().cycle().skip(1)) {
+            let (upper, lower, turn) = if a.y < b.y { (a, b, 1) } else { (b, a, -1) };
+            let right = (*lower - *upper).perp_dot(p - *upper) < 0.0;
+            // Clockwise to the eye counts +1.
+            sum -= if upper.y <= p.y && p.y < lower.y && right { turn } else { 0 };
+        }
+    }
+    sum
+}
+
+/// The distance of a point from an open chain.
+fn distance_from(chain: &[DVec2], p: DVec2) -> f64 {
+    let to_segment = |w: &[DVec2]| distance_to(w, p);
+    chain.windows(2).map(to_segment).fold(f64::INFINITY, f64::min)
+}
+
+proptest! {
+    #[test]
+    fn round_strokes_are_what_lies_near_the_path(
+        p in prop::array::uniform10(-50.0..50.0f64), width in 0.5..60.0f64, closed in any::<bool>(),
+    ) {
+        let at = |i: usize| v(p[2 * i], p[2 * i + 1]);
+        let mut path = Path::new();
+        path.move_to(at(0)).cubic_to(at(1), at(2), at(3)).line_to(at(4)).quad_to(at(1), at(3));
+        if closed {
+            path.close();
+        }
+        let style = StrokeStyle { width, join: Join::Round, cap: Cap::Round, ..Default::default() };
+        let tolerance = 0.05;
+        let outline = path.stroke(&style, tolerance).flatten(&Homography::IDENTITY, 0.01);
+        let mut chain = path.flatten(&Homography::IDENTITY, 0.005).points;
+        if closed {
+            chain.push(chain[0]);
+        }
+        for i in 0..144 {
+            let q = v(f64::from(i % 12) * 15.0 - 88.3, f64::from(i / 12) * 15.0 - 89.1);
+            let distance = distance_from(&chain, q);
+            // Twice the tolerance: the chords of the path and those of the arcs.
+            if distance < width * 0.5 - 2.0 * tolerance - 0.01 {
+                prop_assert!(winding(&outline, q) > 0, "{q} {distance}");
+            } else if distance > width * 0.5 + 2.0 * tolerance {
+                prop_assert_eq!(winding(&outline, q), 0, "{} {}", q, distance);
+            }
+        }
+    }
+
+    #[test]
+    fn strokes_of_any_style_never_wind_backwards(
+        p in prop::collection::vec((-6..7i32, -6..7i32), 1..9), width in 0.5..9.0f64,
+        join in prop::sample::select(vec![Join::Miter, Join::Round, Join::Bevel]),
+        cap in prop::sample::select(vec![Cap::Butt, Cap::Round, Cap::Square]),
+        dashes in prop::collection::vec(0.0..5.0f64, 0..4), dash_offset in -20.0..20.0f64,
+        closed in any::<bool>(),
+    ) {
+        let points = p.iter().map(|&(x, y)| v(f64::from(x), f64::from(y)));
+        let path = Path::polyline(points, closed);
+        let style = StrokeStyle { width, join, cap, miter_limit: 4.0, dashes, dash_offset };
+        let outline = path.stroke(&style, 0.01).flatten(&Homography::IDENTITY, 0.01);
+        let solid = StrokeStyle { dashes: Vec::new(), ..style };
+        let solid = path.stroke(&solid, 0.01).flatten(&Homography::IDENTITY, 0.01);
+        for i in 0..400 {
+            let q = v(f64::from(i % 20) - 9.7, f64::from(i / 20) - 9.3) * 1.03;
+            prop_assert!(winding(&outline, q) >= 0);
+            // Dashes are part of the whole, but for what their caps add.
+            if cap == Cap::Butt && winding(&outline, q) > 0 {
+                prop_assert!(winding(&solid, q) > 0);
+            }
+        }
+    }
+}
+
+#[test]
+fn ends_of_curves_keep_their_direction() {
+    // A wide stroke: the first chord is near enough to the curve long before its sides are.
+    let mut path = Path::new();
+    path.move_to(v(0.0, 0.0)).quad_to(v(100.0, 0.0), v(100.0, 100.0));
+    let style = StrokeStyle { width: 40.0, ..Default::default() };
+    let outline = path.stroke(&style, 0.1);
+    let bounds = outline.bounds().unwrap();
+    assert!(bounds.x0.abs() <= 0.1 && (bounds.y1 - 100.0).abs() <= 0.1, "{bounds:?}");
+    assert!(outline.elements().len() < 200, "{}", outline.elements().len());
+}
+
+#[test]
+fn miters_have_a_limit() {
+    let right_angle = Path::polyline([v(0.0, 0.0), v(10.0, 0.0), v(10.0, 10.0)], false);
+    let area_at = |miter_limit: f64| {
+        let style = StrokeStyle { width: 2.0, miter_limit, ..Default::default() };
+        area(&right_angle.stroke(&style, 0.01).flatten(&Homography::IDENTITY, 0.01))
+    };
+    // Two arms of 10 × 2, a square of 1 × 1 at the tip; its own overlap counts twice here.
+    assert!((area_at(1.42) - area_at(1.41) - 0.5).abs() < 1e-9);
+    let style = StrokeStyle { width: 2.0, miter_limit: 1.5, ..Default::default() };
+    assert_eq!(right_angle.stroke(&style, 0.01).bounds(), Some(Rect::new(0.0, -1.0, 11.0, 10.0)));
+}
+
+#[test]
+fn dots() {
+    let mut dot = Path::new();
+    dot.move_to(v(5.0, 5.0)).line_to(v(5.0, 5.0)).move_to(v(50.0, 5.0));
+    let bounds = |cap| {
+        let style = StrokeStyle { width: 2.0, cap, ..Default::default() };
+        dot.stroke(&style, 0.01).bounds()
+    };
+    assert_eq!(bounds(Cap::Butt), None);
+    assert_eq!(bounds(Cap::Square), Some(Rect::new(4.0, 4.0, 6.0, 6.0)));
+    assert_eq!(bounds(Cap::Round), Some(Rect::new(4.0, 4.0, 6.0, 6.0)));
+}
+
+#[test]
+fn dashes_follow_the_pattern() {
+    let line = Path::polyline([v(0.0, 0.0), v(4.0, 0.0), v(20.0, 0.0)], false);
+    let spans = |dashes: &[f64], dash_offset: f64, path: &Path| {
+        let style = StrokeStyle { dashes: dashes.to_vec(), dash_offset, ..Default::default() };
+        let outline = path.stroke(&style, 0.01).flatten(&Homography::IDENTITY, 0.01);
+        let span = |c: &[DVec2]| Rect::bounding(c.iter().copied()).map(|r| (r.x0, r.x1)).unwrap();
+        outline.iter().map(span).collect::<Vec<_>>()
+    };
+    assert_eq!(spans(&[5.0, 3.0], 0.0, &line), [(0.0, 5.0), (8.0, 13.0), (16.0, 20.0)]);
+    assert_eq!(spans(&[5.0, 3.0], 6.0, &line), [(2.0, 7.0), (10.0, 15.0), (18.0, 20.0)]);
+    assert_eq!(spans(&[5.0, 3.0], -1.0, &line), [(1.0, 6.0), (9.0, 14.0), (17.0, 20.0)]);
+    assert_eq!(spans(&[5.0, 3.0], 8e6 - 1.0, &line), spans(&[5.0, 3.0], -1.0, &line));
+    // Odd: 7 on, 7 off.
+    assert_eq!(spans(&[7.0], 0.0, &line), [(0.0, 7.0), (14.0, 20.0)]);
+    assert_eq!(spans(&[5.0, 5.0], 0.0, &line).len(), 2);
+    // No pattern.
+    for dashes in [&[][..], &[0.0, 0.0], &[-1.0, 2.0], &[f64::NAN], &[f64::INFINITY], &[1e-9]] {
+        assert_eq!(spans(dashes, 0.0, &line), [(0.0, 20.0)]);
+    }
+    // A gap as long as the line.
+    assert_eq!(spans(&[10.0, 30.0], 10.0, &line), []);
+    // Around the seam of a closed contour: 40 long, 6 on and 4 off, from −3 on.
+    let square = Path::rect(Rect::new(0.0, 0.0, 10.0, 10.0));
+    assert_eq!(spans(&[6.0, 4.0], 3.0, &square).len(), 4);
 }
 
 #[test]

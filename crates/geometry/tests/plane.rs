@@ -3,8 +3,8 @@
 
 use proptest::prelude::*;
 use scumble_geometry::{
-    Contours, DVec2, DVec3, Matrix2, Rect, clip_polygon, clip_polygon_to_rect, line_quad,
-    line_quad_square,
+    Affine, Contours, DVec2, DVec3, GeometryError, IntRect, Matrix2, Rect, clip_polygon,
+    clip_polygon_to_rect, line_quad, line_quad_square,
 };
 
 fn v(x: f64, y: f64) -> DVec2 {
@@ -56,8 +56,10 @@ proptest! {
 
     #[test]
     fn neighbours_are_clipped_alike(p in prop::array::uniform12(-8.0..8.0f64), min_w in 0.01..2.0f64) {
-        let p: Vec<DVec3> = p.chunks(3).map(|c| DVec3::new(c[0], c[1], c[2])).collect();
-        prop_assume!((p[0].z < min_w) != (p[1].z < min_w));
+        let mut p: Vec<DVec3> = p.chunks(3).map(|c| DVec3::new(c[0], c[1], c[2])).collect();
+        // The shared edge crosses the boundary.
+        p[0].z = min_w + p[0].z.abs();
+        p[1].z = min_w - 0.001 - p[1].z.abs();
         let clip = |polygon: &[DVec3]| {
             let mut out = Vec::new();
             clip_polygon(polygon, min_w, &mut out);
@@ -107,6 +109,36 @@ fn winding(polygon: &[DVec2], p: DVec2) -> i32 {
 }
 
 #[test]
+fn affine_maps() {
+    let map =
+        Affine::rect_to_rect(Rect::new(0.0, 0.0, 4.0, 2.0), Rect::new(10.0, 20.0, 18.0, 21.0));
+    assert_eq!(map.apply(v(0.0, 0.0)), v(10.0, 20.0));
+    assert_eq!(map.apply(v(4.0, 2.0)), v(18.0, 21.0));
+    assert_eq!(map.determinant(), 1.0);
+    assert_eq!((map.inverse().unwrap() * map), Affine::IDENTITY);
+    let product = Affine::translate(1.0, 2.0) * Affine::scale(3.0, 4.0);
+    assert_eq!(product.apply(v(1.0, 1.0)), v(4.0, 6.0));
+    assert_eq!(product.linear(), Matrix2::new(3.0, 0.0, 0.0, 4.0));
+    assert_eq!(Affine::scale(0.0, 1.0).inverse(), Err(GeometryError::Singular));
+    assert!(Affine::scale(f64::NAN, 1.0).inverse().is_err());
+    let empty = Rect::new(1.0, 1.0, 1.0, 1.0);
+    assert!(!Affine::rect_to_rect(empty, Rect::new(0.0, 0.0, 1.0, 1.0)).is_finite());
+}
+
+#[test]
+fn rectangles() {
+    assert_eq!(Rect::bounding([]), None);
+    assert_eq!(Rect::bounding([v(1.0, f64::NAN), v(2.0, 3.0)]), None);
+    assert!(Rect::new(0.0, 0.0, f64::NAN, 1.0).is_empty());
+    let a = IntRect::new(0, 0, 10, 10);
+    let b = IntRect::new(5, -5, 15, 5);
+    assert_eq!(a.intersect(&b), IntRect::new(5, 0, 10, 5));
+    assert!(a.intersect(&IntRect::new(10, 0, 20, 5)).is_empty());
+    assert!(a.contains(0, 9) && !a.contains(10, 0));
+    assert_eq!(IntRect::new(i32::MIN, 0, i32::MAX, 1).width(), u32::MAX);
+}
+
+#[test]
 fn axes_of_special_matrices() {
     let axes = Matrix2::new(0.0, 0.0, 0.0, 0.0).axes();
     assert_eq!((axes.major, axes.minor, axes.direction), (0.0, 0.0, [1.0, 0.0]));
@@ -144,6 +176,9 @@ fn huge_polygons_are_clipped_to_the_rectangle() {
     let rect = Rect::new(0.0, 0.0, 4.0, 3.0);
     clip_polygon_to_rect(&mut polygon, rect, &mut Vec::new());
     assert_eq!(area(&polygon).abs(), 12.0);
+    let mut polygon = vec![v(f64::MIN, f64::MIN), v(f64::MAX, 0.0), v(0.0, f64::MAX)];
+    clip_polygon_to_rect(&mut polygon, Rect::new(-1e308, -1e308, 1.7e308, 1.0), &mut Vec::new());
+    assert!(polygon.iter().all(|p| p.is_finite()));
 }
 
 #[test]

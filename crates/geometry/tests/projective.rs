@@ -122,8 +122,8 @@ proptest! {
         xs in prop::array::uniform9(-10.0..10.0f64), uv in prop::array::uniform6(-2.0..2.0f64),
         b in prop::array::uniform3(0.05..1.0f64),
     ) {
-        // Vertices anywhere, in front or behind; w within [-2, 3].
-        let p: [DVec3; 3] = core::array::from_fn(|i| {
+        // Vertices anywhere, in front or behind; w within ±3.
+        let mut p: [DVec3; 3] = core::array::from_fn(|i| {
             DVec3::new(xs[3 * i] * 30.0, xs[3 * i + 1] * 30.0, xs[3 * i + 2] * 0.25 + 0.5)
         });
         let values: [DVec2; 3] = core::array::from_fn(|i| v(uv[2 * i], uv[2 * i + 1]));
@@ -131,8 +131,12 @@ proptest! {
         prop_assume!(det.abs() > 100.0);
         // A point of the triangle in space, and what it shows.
         let sum = b[0] + b[1] + b[2];
-        let point = (p[0] * b[0] + p[1] * b[1] + p[2] * b[2]) / sum;
-        prop_assume!(point.z > 0.05);
+        let mut point = (p[0] * b[0] + p[1] * b[1] + p[2] * b[2]) / sum;
+        if point.z < 0.0 {
+            // The same on the screen, in front of the eye.
+            (p, point) = (p.map(|v| -v), -point);
+        }
+        prop_assume!(point.z > 0.01);
         let value = (values[0] * b[0] + values[1] * b[1] + values[2] * b[2]) / sum;
         let screen = point.truncate() / point.z;
 

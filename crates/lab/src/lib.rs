@@ -21,6 +21,7 @@ mod math;
 mod scenes;
 mod svg;
 mod textures;
+pub mod workloads;
 
 use std::path::{Path, PathBuf};
 

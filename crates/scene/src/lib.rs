@@ -16,7 +16,9 @@ mod image;
 mod scene;
 mod view;
 
-pub use command::{Command, Fill, GouraudTriangle, Hairline, ImageQuad, Point, Stroke, TexturedTriangle};
+pub use command::{
+    Command, Fill, GouraudTriangle, Hairline, ImageQuad, Point, Stroke, TexturedTriangle,
+};
 pub use image::{ImageId, ImageWrap, SceneImage};
 pub use scene::Scene;
 pub use view::View;

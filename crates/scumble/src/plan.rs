@@ -2,7 +2,7 @@
 
 use crate::paint::{Gouraud, Paint, Textured};
 use crate::{Interpolation, Settings};
-use scumble_coverage::Shape;
+use scumble_coverage::{Cover, Shape};
 use scumble_geometry::{
     Affine, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Rect, clip_polygon, line_quad,
 };
@@ -34,6 +34,17 @@ pub(crate) struct Draw {
     pub(crate) layer: u32,
     /// The pixels of the canvas that it may touch.
     pub(crate) bounds: IntRect,
+}
+
+impl Draw {
+    /// Whether it may own a sample of a rectangle.
+    pub(crate) fn touches(&self, rect: IntRect) -> bool {
+        let inside = match &self.form {
+            Form::Shape(shape) => shape.covers(rect) != Cover::None,
+            Form::Chain(_) | Form::Pixel => true,
+        };
+        inside && !self.bounds.intersect(&rect).is_empty()
+    }
 }
 
 /// Which samples a primitive owns.
@@ -68,7 +79,7 @@ pub(crate) fn build(scene: &Scene, settings: &Settings, surfaces: Vec<Option<Sur
     let canvas = IntRect::new(0, 0, settings.width as i32, settings.height as i32);
     let mut planner = Planner {
         settings,
-        view: scene.view.transform(settings.width, settings.height).into(),
+        view: scene.view.homography(settings.width, settings.height),
         canvas,
         layer: 0,
         plan: Plan {

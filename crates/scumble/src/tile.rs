@@ -15,7 +15,16 @@ pub(crate) struct Workspace {
     /// The canvas, then one tile for each open layer.
     stack: Vec<Tile>,
     colors: Vec<Premul>,
+    /// Lists for the parts of a tile, one for each depth of the division.
+    lists: Vec<Vec<u32>>,
 }
+
+/// A tile is drawn in parts, halved both ways down to this side, where large opaque primitives lie
+/// over one another: a small part is hidden whole more often than a large one.
+const LEAST_PART: u32 = 16;
+
+/// How many large opaque primitives make the division worth its while.
+const SPLIT_FROM: usize = 3;
 
 /// All that stays the same from tile to tile.
 pub(crate) struct Job<'a> {
@@ -33,17 +42,30 @@ impl Job<'_> {
         list: &[u32],
         rows: &mut [&mut [[u8; 4]]],
     ) {
-        let draws = &self.plan.draws;
         let mut replay = Replay { job: self, work, rect, layers: vec![0] };
         replay.open(0, self.background);
-        let hidden = list.iter().rposition(|&i| self.hides(&draws[i as usize], rect)).unwrap_or(0);
-        for &i in &list[hidden..] {
-            let draw = &draws[i as usize];
-            replay.enter(draw.layer);
-            replay.draw(draw);
-        }
+        replay.part(rect, list);
         replay.enter(0);
         self.resolve(work, rect, rows);
+    }
+
+    fn draw_of(&self, index: u32) -> &Draw {
+        &self.plan.draws[index as usize]
+    }
+
+    /// Whether dividing a part of a tile may hide primitives. Layers are laid over each other by
+    /// the whole tile, so it takes a list without any.
+    fn worth_dividing(&self, rect: IntRect, list: &[u32]) -> bool {
+        let large = |draw: &&Draw| {
+            let seen = draw.bounds.intersect(&rect);
+            draw.paint.is_opaque()
+                && 2 * seen.width() * seen.height() > rect.width() * rect.height()
+        };
+        rect.width().max(rect.height()) > LEAST_PART
+            && list.len() >= SPLIT_FROM
+            && list.iter().all(|&i| self.draw_of(i).layer == 0)
+            && list.iter().map(|&i| self.draw_of(i)).filter(large).take(SPLIT_FROM).count()
+                == SPLIT_FROM
     }
 
     /// Whether a primitive hides whatever lies under it in the whole tile.
@@ -117,9 +139,31 @@ impl Replay<'_> {
         }
     }
 
-    fn draw(&mut self, draw: &Draw) {
-        let clip = self.rect.intersect(&draw.bounds);
-        let Workspace { scratch, stack, colors } = &mut *self.work;
+    /// Draws a list on a part of the tile, leaving out what is hidden there.
+    fn part(&mut self, rect: IntRect, list: &[u32]) {
+        let job = self.job;
+        let top = list.iter().rposition(|&i| job.hides(job.draw_of(i), rect)).unwrap_or(0);
+        let list = &list[top..];
+        if !job.worth_dividing(rect, list) {
+            for &i in list {
+                let draw = job.draw_of(i);
+                self.enter(draw.layer);
+                self.draw(draw, rect);
+            }
+            return;
+        }
+        let mut touching = self.work.lists.pop().unwrap_or_default();
+        for quarter in quarters(rect) {
+            touching.clear();
+            touching.extend(list.iter().filter(|&&i| job.draw_of(i).touches(quarter)));
+            self.part(quarter, &touching);
+        }
+        self.work.lists.push(touching);
+    }
+
+    fn draw(&mut self, draw: &Draw, rect: IntRect) {
+        let clip = rect.intersect(&draw.bounds);
+        let Workspace { scratch, stack, colors, .. } = &mut *self.work;
         let mut painter = Painter {
             job: self.job,
             paint: &draw.paint,
@@ -222,6 +266,14 @@ impl Sink for Painter<'_> {
         let (lx, ly) = self.local(x, y);
         self.tile.blend_masked(lx, ly, mask.0, color);
     }
+}
+
+/// The four parts of a rectangle; some are empty if a side is 1.
+fn quarters(rect: IntRect) -> [IntRect; 4] {
+    let IntRect { x0, y0, x1, y1 } = rect;
+    let (x, y) = (x0.midpoint(x1), y0.midpoint(y1));
+    [(x0, y0, x, y), (x, y0, x1, y), (x0, y, x, y1), (x, y, x1, y1)]
+        .map(|(x0, y0, x1, y1)| IntRect::new(x0, y0, x1, y1))
 }
 
 fn centre(x: i32, y: i32) -> DVec2 {

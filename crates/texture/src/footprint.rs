@@ -1,3 +1,4 @@
+use crate::wrap::FAR;
 use scumble_geometry::{DVec2, Homography, Matrix2};
 
 /// What a pixel sees of a texture: a place and how the texture runs under the pixel there.
@@ -21,7 +22,7 @@ impl Footprint {
     /// Behind the eye and on the horizon (w ≤ 0) everything in it is NaN, which every filter
     /// takes for "infinitely far".
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn at(map: &Homography, p: DVec2) -> Self {
         let h = map.project_homogeneous(p);
         let w = if h.z > 0.0 { 1.0 / h.z } else { f64::NAN };
@@ -42,9 +43,23 @@ impl Footprint {
         Self { u, v, jacobian: Matrix2::new(0.0, 0.0, 0.0, 0.0) }
     }
 
+    /// Whether the centre is finite.
+    #[inline(always)]
+    pub(crate) fn is_finite(&self) -> bool {
+        (self.u.abs() < f64::INFINITY) & (self.v.abs() < f64::INFINITY)
+    }
+
+    /// Whether every component of the Jacobian is within what the formulas hold.
+    #[inline(always)]
+    pub(crate) fn is_bounded(&self) -> bool {
+        // A comparison with NaN is false.
+        let Matrix2 { a, b, c, d } = self.jacobian;
+        (a.abs() <= FAR) & (b.abs() <= FAR) & (c.abs() <= FAR) & (d.abs() <= FAR)
+    }
+
     /// The square of the longer column of the Jacobian: how far, in texels, a step of one pixel
     /// along x or y goes.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn longest_step_squared(&self) -> f64 {
         let Matrix2 { a, b, c, d } = self.jacobian;
         let (x, y) = (a * a + c * c, b * b + d * d);

@@ -1,3 +1,5 @@
+use fearless_simd::{Simd, f32x16};
+
 /// The largest argument of [`gaussian`]: a cut at 4σ.
 #[cfg(test)]
 pub(crate) const DOMAIN: f32 = 8.0;
@@ -9,6 +11,19 @@ pub(crate) const DOMAIN: f32 = 8.0;
 #[inline(always)]
 pub(crate) fn gaussian(x: f32) -> f32 {
     let p = C[0] + x * (C[1] + x * (C[2] + x * (C[3] + x * (C[4] + x * C[5]))));
+    let p2 = p * p;
+    let p4 = p2 * p2;
+    p4 * p4
+}
+
+/// [`gaussian`] of sixteen numbers, the same bits.
+#[inline(always)]
+pub(crate) fn gaussian_x16<S: Simd>(x: f32x16<S>) -> f32x16<S> {
+    let p = x * C[5] + C[4];
+    let p = x * p + C[3];
+    let p = x * p + C[2];
+    let p = x * p + C[1];
+    let p = x * p + C[0];
     let p2 = p * p;
     let p4 = p2 * p2;
     p4 * p4

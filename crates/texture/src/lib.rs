@@ -47,7 +47,10 @@
 
 extern crate alloc;
 
+mod batch;
+mod covariance;
 mod decimate;
+mod engine;
 mod error;
 mod ewa;
 mod footprint;
@@ -59,14 +62,17 @@ mod options;
 mod point;
 pub mod reference;
 mod sampler;
+mod simd;
 mod srgb;
 mod texture;
 mod walk;
+mod walk_simd;
 mod wrap;
 
 pub use error::TextureError;
 pub use footprint::Footprint;
 pub use options::{Decimation, Levels, TextureOptions};
 pub use sampler::{LevelMode, PixelFilter, Sampler};
+pub use simd::Simd;
 pub use texture::Texture;
 pub use wrap::Wrap;

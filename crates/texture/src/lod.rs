@@ -4,7 +4,7 @@ use crate::math::log2;
 use crate::{Footprint, LevelMode};
 
 /// One or two neighbouring levels.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Pick {
     /// The finer level.
     pub(crate) level: usize,
@@ -14,6 +14,7 @@ pub(crate) struct Pick {
 
 /// The levels for a footprint, of `count` that there are. D = log₂ of the longest step, clamped;
 /// a step that is not finite goes to the coarsest level. [`LevelMode::Auto`] does not come here.
+#[inline(always)]
 pub(crate) fn pick(f: &Footprint, mode: LevelMode, count: usize) -> Pick {
     let last = count - 1;
     let only = |level| Pick { level, coarser: 0.0 };
@@ -40,6 +41,7 @@ pub(crate) fn pick(f: &Footprint, mode: LevelMode, count: usize) -> Pick {
 }
 
 /// max(0, ⌊log₄ x⌋) of a finite x ≥ 0, from the exponent's bits.
+#[inline(always)]
 pub(crate) fn half_octaves(x: f64) -> usize {
     (((x.to_bits() >> 52) as usize).saturating_sub(1023)) / 2
 }

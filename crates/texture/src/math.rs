@@ -14,6 +14,15 @@ pub(crate) fn sqrt(x: f64) -> f64 {
     compile_error!("scumble-texture needs the feature `std` or `libm`");
 }
 
+/// √x, correctly rounded.
+#[inline(always)]
+pub(crate) fn sqrt32(x: f32) -> f32 {
+    #[cfg(feature = "std")]
+    return x.sqrt();
+    #[cfg(all(not(feature = "std"), feature = "libm"))]
+    return libm::sqrtf(x);
+}
+
 /// The largest whole number that is not above x.
 #[inline(always)]
 pub(crate) fn floor(x: f64) -> f64 {
@@ -36,6 +45,7 @@ pub(crate) fn floor32(x: f32) -> f32 {
 ///
 /// The exponent is read from the bits; the mantissa m, brought to [√½, √2), goes through
 /// ln m = 2·artanh((m − 1)/(m + 1)), whose series in z² ≤ 0.0295 is cut at z²³.
+#[inline(always)]
 pub(crate) fn log2(x: f64) -> f64 {
     let bits = x.to_bits();
     let mut exponent = f64::from(((bits >> 52) & 0x7ff) as u16) - 1023.0;

@@ -11,11 +11,13 @@ pub(crate) fn lerp(a: [f32; 4], b: [f32; 4], t: f32) -> [f32; 4] {
 }
 
 /// The texel that (u, v), in texels of this level, lies in.
+#[inline(always)]
 pub(crate) fn nearest(level: &Level, wrap: Wrap, u: f64, v: f64) -> [f32; 4] {
     level.texel(floor(u) as i64, floor(v) as i64, wrap)
 }
 
 /// The four texels whose centres surround (u, v), in texels of this level.
+#[inline(always)]
 pub(crate) fn bilinear(level: &Level, wrap: Wrap, u: f64, v: f64) -> [f32; 4] {
     let (x, y) = (u - 0.5, v - 0.5);
     let (x0, y0) = (floor(x), floor(y));

@@ -5,8 +5,8 @@
 //! is dense in both. No pyramid, no ellipse, no approximation of the map. Slow: a pixel that sees a
 //! thousand texels takes some hundred thousand points.
 
+use crate::Texture;
 use crate::math::{exp, floor, sqrt};
-use crate::{Texture, Wrap};
 use scumble_geometry::{DVec2, Homography};
 
 /// The filter of a pixel on the screen.
@@ -115,9 +115,12 @@ impl<'a> Reference<'a> {
 /// Level 0 at a position in its texels.
 fn bilinear(texture: &Texture, p: DVec2) -> Option<[f64; 4]> {
     let level = &texture.levels[0];
-    let wrap: Wrap = texture.wrap;
-    let x = wrap.reduce(p.x, level.width)? - 0.5;
-    let y = wrap.reduce(p.y, level.height)? - 0.5;
+    let wrap = texture.wrap;
+    if !p.is_finite() {
+        return None;
+    }
+    let [x, y] = texture.nearer;
+    let (x, y) = (x.bring(p.x) - 0.5, y.bring(p.y) - 0.5);
     let (x0, y0) = (floor(x), floor(y));
     let (fx, fy) = (x - x0, y - y0);
     let texel = |i, j| level.texel(x0 as i64 + i, y0 as i64 + j, wrap).map(f64::from);

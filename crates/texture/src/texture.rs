@@ -1,13 +1,17 @@
+use crate::batch;
 use crate::decimate::halve;
-use crate::ewa::{self, Limits, Plan};
+use crate::engine::{Engine, Scalar, Vector};
+use crate::ewa::{self, Limits};
 use crate::level::Level;
 use crate::point::{bilinear, lerp, nearest};
 use crate::srgb::decode_table;
+use crate::wrap::Nearer;
 use crate::{
-    Decimation, Footprint, LevelMode, Levels, PixelFilter, Sampler, TextureError, TextureOptions,
-    Wrap, lod,
+    Footprint, LevelMode, Levels, PixelFilter, Sampler, Simd, TextureError, TextureOptions, Wrap,
+    lod,
 };
 use alloc::vec::Vec;
+use fearless_simd::dispatch;
 use scumble_geometry::{DVec2, Homography};
 use scumble_pixel::{ImageView, Premul, WorkingSpace};
 
@@ -19,9 +23,10 @@ use scumble_pixel::{ImageView, Premul, WorkingSpace};
 pub struct Texture {
     pub(crate) levels: Vec<Level>,
     pub(crate) wrap: Wrap,
-    pub(crate) decimation: Decimation,
     space: WorkingSpace,
     average: [f32; 4],
+    pub(crate) nearer: [Nearer; 2],
+    simd: Simd,
 }
 
 impl Texture {
@@ -48,13 +53,21 @@ impl Texture {
         while let Some(last) = levels.last()
             && levels.len() < count(width, height, options.levels)
         {
-            levels.push(halve(last, options.decimation, options.wrap)?);
+            let next = halve(last, options.decimation, options.wrap)?;
+            levels.push(next.over([width, height], options.decimation.variance()));
         }
-        if let [.., Level { width: 1, height: 1, texels }] = &levels[..] {
+        if let [.., Level { width: 1, height: 1, texels, .. }] = &levels[..] {
             average = texels[0];
         }
-        let TextureOptions { space, wrap, decimation, .. } = *options;
-        Ok(Self { levels, wrap, decimation, space, average })
+        let TextureOptions { space, wrap, .. } = *options;
+        let nearer = [Nearer::new(wrap, width), Nearer::new(wrap, height)];
+        Ok(Self { levels, wrap, space, average, nearer, simd: Simd::best() })
+    }
+
+    /// The same texture, sampled with other instructions and the same results.
+    #[must_use]
+    pub fn with_simd(self, simd: Simd) -> Self {
+        Self { simd, ..self }
     }
 
     /// Columns of level 0.
@@ -115,7 +128,10 @@ impl Texture {
     /// does a Jacobian that is not, or that has a component beyond 2⁴⁰, where the filter needs it.
     #[must_use]
     pub fn sample(&self, f: &Footprint, s: &Sampler) -> Premul {
-        self.sample_prepared(f, s, &Limits::new(s))
+        let mut out = [Premul::TRANSPARENT];
+        self.dispatch(|_| *f, s, &mut out);
+        let [color] = out;
+        color
     }
 
     /// The colours of a run of pixels: `out[i]` is what [`Texture::sample`] gives for
@@ -123,54 +139,105 @@ impl Texture {
     ///
     /// `map` goes from the screen to texels of level 0. The Jacobian is exact at each sample.
     pub fn sample_row(&self, map: &Homography, start: DVec2, s: &Sampler, out: &mut [Premul]) {
-        let limits = Limits::new(s);
-        for (i, out) in out.iter_mut().enumerate() {
-            let f = Footprint::at(map, DVec2::new(start.x + i as f64, start.y));
-            *out = self.sample_prepared(&f, s, &limits);
+        self.dispatch(
+            #[inline(always)]
+            |i| Footprint::at(map, DVec2::new(start.x + i as f64, start.y)),
+            s,
+            out,
+        );
+    }
+
+    /// Runs [`Texture::fill`] compiled for the chosen instructions.
+    fn dispatch(&self, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mut [Premul]) {
+        match self.simd.0 {
+            None => self.fill(Scalar, at, s, out),
+            Some(level) => {
+                dispatch!(level, simd => self.fill(Vector(simd), at, s, out));
+            }
         }
+    }
+
+    /// Samples a run of footprints.
+    #[inline(always)]
+    fn fill(
+        &self,
+        engine: impl Engine,
+        at: impl Fn(usize) -> Footprint,
+        s: &Sampler,
+        out: &mut [Premul],
+    ) {
+        let limits = Limits::new(s);
+        if s.pixel == PixelFilter::Ewa && s.level == LevelMode::Auto {
+            return batch::fill(self, engine, at, &limits, out);
+        }
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = self.sample_one(engine, &at(i), s, &limits);
+        }
+    }
+
+    #[inline(always)]
+    fn sample_one(
+        &self,
+        engine: impl Engine,
+        f: &Footprint,
+        s: &Sampler,
+        limits: &Limits,
+    ) -> Premul {
+        let f = self.nearer(f);
+        if !f.is_finite() {
+            return self.average();
+        }
+        into_range(match s.pixel {
+            PixelFilter::Nearest => self.blend_levels(
+                &f,
+                s,
+                #[inline(always)]
+                |l, u, v| nearest(&self.levels[l], self.wrap, u, v),
+            ),
+            PixelFilter::Bilinear => self.blend_levels(
+                &f,
+                s,
+                #[inline(always)]
+                |l, u, v| bilinear(&self.levels[l], self.wrap, u, v),
+            ),
+            PixelFilter::Ewa if !f.is_bounded() => self.average,
+            PixelFilter::Ewa => ewa::sample(self, engine, &f, s.level, limits),
+        })
     }
 
     /// How many texels [`Texture::sample`] reads for a footprint, those of weight 0 included.
     #[must_use]
     pub fn cost(&self, f: &Footprint, s: &Sampler) -> usize {
-        let Some(f) = self.reduce(f) else {
+        let f = self.nearer(f);
+        if !f.is_finite() {
             return 0;
-        };
+        }
         let each = match s.pixel {
             PixelFilter::Nearest => 1,
             PixelFilter::Bilinear => 4,
-            PixelFilter::Ewa if !ewa::is_usable(&f.jacobian) => return 0,
-            PixelFilter::Ewa => return Plan::new(self, &f, s.level, &Limits::new(s)).texels(),
+            PixelFilter::Ewa if !f.is_bounded() => return 0,
+            PixelFilter::Ewa => return ewa::cost(self, &f, s.level, &Limits::new(s)),
         };
         let two = lod::pick(&f, point_mode(s), self.levels.len()).coarser > 0.0;
         if two { 2 * each } else { each }
     }
 
-    fn sample_prepared(&self, f: &Footprint, s: &Sampler, limits: &Limits) -> Premul {
-        let Some(f) = self.reduce(f) else {
-            return into_range(self.average);
-        };
-        into_range(match s.pixel {
-            PixelFilter::Nearest => {
-                self.blend_levels(&f, s, |l, u, v| nearest(&self.levels[l], self.wrap, u, v))
-            }
-            PixelFilter::Bilinear => {
-                self.blend_levels(&f, s, |l, u, v| bilinear(&self.levels[l], self.wrap, u, v))
-            }
-            PixelFilter::Ewa if !ewa::is_usable(&f.jacobian) => self.average,
-            PixelFilter::Ewa => Plan::new(self, &f, s.level, limits).run(self),
-        })
+    /// The footprint with its centre brought near.
+    #[inline(always)]
+    pub(crate) fn nearer(&self, f: &Footprint) -> Footprint {
+        let [u, v] = &self.nearer;
+        // A centre that is not finite stays so: ∞ − ∞ and 0·∞ are NaN, and NaN survives the sum.
+        let lost = 0.0 * f.u + 0.0 * f.v;
+        Footprint { u: u.bring(f.u) + lost, v: v.bring(f.v) + lost, jacobian: f.jacobian }
     }
 
-    /// The footprint with its centre brought near; `None` if it is not finite.
-    #[inline]
-    fn reduce(&self, f: &Footprint) -> Option<Footprint> {
-        let u = self.wrap.reduce(f.u, self.width())?;
-        let v = self.wrap.reduce(f.v, self.height())?;
-        Some(Footprint { u, v, jacobian: f.jacobian })
+    /// What stands for a footprint that reaches infinitely far.
+    pub(crate) fn average(&self) -> Premul {
+        into_range(self.average)
     }
 
     /// One level, or two of them blended; `filter` gets the level and the centre in its texels.
+    #[inline(always)]
     fn blend_levels(
         &self,
         f: &Footprint,
@@ -178,19 +245,13 @@ impl Texture {
         filter: impl Fn(usize, f64, f64) -> [f32; 4],
     ) -> [f32; 4] {
         let pick = lod::pick(f, point_mode(s), self.levels.len());
-        let at = |level: usize| {
-            let [su, sv] = self.scale(level);
-            filter(level, f.u * su, f.v * sv)
-        };
-        let fine = at(pick.level);
-        if pick.coarser > 0.0 { lerp(fine, at(pick.level + 1), pick.coarser) } else { fine }
-    }
-
-    /// From texels of level 0 to texels of a level, per axis. Not 2^−l where a size was odd.
-    #[inline]
-    pub(crate) fn scale(&self, level: usize) -> [f64; 2] {
-        let (to, from) = (&self.levels[level], &self.levels[0]);
-        [to.width as f64 / from.width as f64, to.height as f64 / from.height as f64]
+        let [su, sv] = self.levels[pick.level].scale;
+        let fine = filter(pick.level, f.u * su, f.v * sv);
+        if pick.coarser == 0.0 {
+            return fine;
+        }
+        let [su, sv] = self.levels[pick.level + 1].scale;
+        lerp(fine, filter(pick.level + 1, f.u * su, f.v * sv), pick.coarser)
     }
 }
 
@@ -240,7 +301,7 @@ fn mean(level: &Level) -> [f32; 4] {
 
 /// Takes off what a sharp pyramid overshoots: alpha to 0…1, colour to 0…alpha.
 #[inline(always)]
-fn into_range([r, g, b, a]: [f32; 4]) -> Premul {
+pub(crate) fn into_range([r, g, b, a]: [f32; 4]) -> Premul {
     let a = a.clamp(0.0, 1.0);
     Premul([r.clamp(0.0, a), g.clamp(0.0, a), b.clamp(0.0, a), a])
 }

@@ -1,13 +1,15 @@
-//! The walk over an ellipse: rows of texels, runs of [`LANES`] in each.
+//! The walk over an ellipse: rows of texels, runs of [`LANES`] in each. Here as a definition, in
+//! scalar code; `walk_simd` is the same in vectors.
 
 use crate::Wrap;
 use crate::gaussian::gaussian;
 use crate::level::Level;
 use crate::math::floor32;
 
-/// Texels weighted together. A logical number: the sums are taken in this many lanes, and folded in
-/// a fixed order, whatever the width of the machine's vectors.
-pub(crate) const LANES: usize = 8;
+/// Rows walked together, and texels of each: the sums are taken in lanes of this logical shape and
+/// folded in a fixed order, whatever the width of the machine's vectors. Four texels are one vector of
+/// sixteen floats, and most rows of most ellipses hold no more than four.
+pub(crate) const LANES: usize = 4;
 
 /// An ellipse in one level, ready to be walked.
 ///
@@ -22,9 +24,10 @@ pub(crate) struct Walk {
     /// The rest of the centre, in [0, 1].
     pub(crate) fx: f32,
     pub(crate) fy: f32,
-    /// First and last row, relative to y0.
+    /// First row, relative to y0.
     pub(crate) first: i32,
-    pub(crate) last: i32,
+    /// Half the ellipse's height.
+    pub(crate) rise: f32,
     /// Half the ellipse's width along its widest row (any row through its centre).
     pub(crate) run: f32,
     /// Σuv/Σvv: how the middle moves from row to row.
@@ -39,115 +42,136 @@ pub(crate) struct Walk {
 
 impl Walk {
     /// Groups of [`LANES`] texels that cover the widest row; every row reads as many. Weights
-    /// outside the ellipse are 0, and a fixed count is cheaper than exact ends.
-    fn groups(&self) -> usize {
-        let texels = floor32(2.0 * self.run) as usize + 1;
-        texels.div_ceil(LANES)
+    /// outside the ellipse are 0, and a fixed count is cheaper than exact ends: it depends on the
+    /// ellipse but not on where in a texel its centre lies, so neighbouring pixels agree on it and
+    /// the processor can predict it.
+    #[inline(always)]
+    pub(crate) fn groups(&self) -> usize {
+        groups(self.run)
+    }
+
+    /// Blocks of [`LANES`] rows, by the same reasoning.
+    #[inline(always)]
+    pub(crate) fn blocks(&self) -> usize {
+        groups(self.rise)
     }
 
     /// Texels that the walk reads.
     pub(crate) fn texels(&self) -> usize {
-        (self.last - self.first + 1).max(0) as usize * self.groups() * LANES
+        self.blocks() * self.groups() * LANES * LANES
+    }
+
+    /// The texel nearest to the centre. What is summed is the difference from it, so that a
+    /// constant texture comes out exact to the last bit.
+    #[inline(always)]
+    pub(crate) fn centre(&self, level: &Level, wrap: Wrap) -> [f32; 4] {
+        let right = i64::from(self.fx >= 0.5);
+        let below = i64::from(self.fy >= 0.5);
+        level.texel(self.x0 + right, self.y0 + below, wrap)
+    }
+
+    /// Whether every texel of the walk lies inside the level.
+    ///
+    /// The middle of the ellipse moves evenly from row to row, so the first and the last row reach
+    /// farthest; the same numbers as in the walk, which only grow or only fall with the row.
+    #[inline(always)]
+    pub(crate) fn is_inside(&self, level: &Level) -> bool {
+        let start = |j: i32| {
+            let middle = self.fx + self.slope * (j as f32 - self.fy);
+            self.x0 + (floor32(middle - self.run) + 1.0) as i64
+        };
+        let last = self.first + (self.blocks() * LANES) as i32 - 1;
+        let (a, b) = (start(self.first), start(last));
+        let end = a.max(b) + (self.groups() * LANES) as i64;
+        let (top, bottom) = (self.y0 + i64::from(self.first), self.y0 + i64::from(last));
+        (a.min(b) >= 0) & (end <= level.width as i64) & (top >= 0) & (bottom < level.height as i64)
+    }
+
+    /// Row `j` of the walk, as far as it can be found in the level.
+    #[inline(always)]
+    pub(crate) fn row<'a>(&self, j: i32, level: &'a Level, wrap: Wrap) -> Row<'a> {
+        let y = wrap.resolve(self.y0 + i64::from(j), level.height);
+        Row { texels: y.map(|y| level.row(y)), wrap }
     }
 }
 
-/// Σ w·(t − centre) in lanes and Σ w, for one texture's channels.
-struct Sums {
-    texels: [[f32; 4]; LANES],
-    weights: [f32; LANES],
-}
-
-/// The weighted average of the texels in the ellipse.
-///
-/// What is summed is the difference from the texel at the centre, so that a constant texture comes
-/// out exact to the last bit.
-pub(crate) fn walk(level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
-    let right = i64::from(w.fx >= 0.5);
-    let below = i64::from(w.fy >= 0.5);
-    let centre = level.texel(w.x0 + right, w.y0 + below, wrap);
-    let mut sums = Sums { texels: [[0.0; 4]; LANES], weights: [0.0; LANES] };
-    let groups = w.groups();
-    for j in w.first..=w.last {
-        let dv = j as f32 - w.fy;
-        let e = w.row_scale * (dv * dv);
-        let middle = w.fx + w.slope * dv;
-        let start = floor32(middle - w.run) + 1.0;
-        let row = Row { level, wrap, y: wrap.resolve(w.y0 + i64::from(j), level.height) };
-        for k in 0..groups {
-            let first = start + (k * LANES) as f32;
-            let weights = weigh(first - middle, e, w);
-            row.with_run(w.x0 + first as i64, |run| sums.add(run, &weights, &centre));
-        }
-    }
-    sums.finish(centre)
-}
-
-/// The weights of a group whose first texel is `dx` from the middle of its row.
+/// How many groups of [`LANES`] hold every whole number in any interval of that half-width.
 #[inline(always)]
-fn weigh(dx: f32, e: f32, w: &Walk) -> [f32; LANES] {
-    core::array::from_fn(|i| {
-        let dx = dx + i as f32;
-        let e = e + w.run_scale * (dx * dx);
-        let weight = gaussian(e);
-        if e <= w.cut { weight } else { 0.0 }
-    })
+fn groups(half: f32) -> usize {
+    (floor32(2.0 * half) as usize + 1).div_ceil(LANES)
 }
 
 /// A row of a level, or of the constant outside it.
-struct Row<'a> {
-    level: &'a Level,
+#[derive(Clone, Copy)]
+pub(crate) struct Row<'a> {
+    texels: Option<&'a [[f32; 4]]>,
     wrap: Wrap,
-    y: Option<usize>,
 }
 
 impl Row<'_> {
     /// Calls `f` with the [`LANES`] texels from column `x`: in place where they lie inside,
     /// collected where they do not.
     #[inline(always)]
-    fn with_run(&self, x: i64, mut f: impl FnMut(&[[f32; 4]; LANES])) {
-        let Some(y) = self.y else {
-            return f(&[self.wrap.border(); LANES]);
-        };
-        let row = self.level.row(y);
-        let inside = usize::try_from(x).ok().and_then(|x| row.get(x..)?.first_chunk());
+    pub(crate) fn with_run<R>(&self, x: i64, f: impl FnOnce(&[[f32; 4]; LANES]) -> R) -> R {
+        let inside = self.texels.and_then(|row| row.get(usize::try_from(x).ok()?..)?.first_chunk());
         match inside {
             Some(run) => f(run),
-            None => f(&self.collect(row, x)),
+            None => f(&self.collect(x)),
         }
     }
 
     #[cold]
-    fn collect(&self, row: &[[f32; 4]], x: i64) -> [[f32; 4]; LANES] {
-        core::array::from_fn(|i| match self.wrap.resolve(x + i as i64, row.len()) {
-            Some(x) => row[x],
-            None => self.wrap.border(),
+    #[inline(never)]
+    fn collect(&self, x: i64) -> [[f32; 4]; LANES] {
+        core::array::from_fn(|i| {
+            let found = self
+                .texels
+                .and_then(|row| self.wrap.resolve(x + i as i64, row.len()).map(|x| row[x]));
+            found.unwrap_or_else(|| self.wrap.border())
         })
     }
 }
 
-impl Sums {
-    #[inline(always)]
-    fn add(&mut self, run: &[[f32; 4]; LANES], weights: &[f32; LANES], centre: &[f32; 4]) {
-        for i in 0..LANES {
-            self.weights[i] += weights[i];
-            for c in 0..4 {
-                self.texels[i][c] += weights[i] * (run[i][c] - centre[c]);
+/// The weighted average of the texels in the ellipse.
+///
+/// Four rows at a time, and in them a group of four columns after the other. The texels' lanes are
+/// the columns of a group; the weights' lanes its rows, too.
+pub(crate) fn walk(level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
+    let centre = w.centre(level, wrap);
+    let mut sums = [[0.0f32; 4]; LANES];
+    let mut weights = [[0.0f32; LANES]; LANES];
+    for block in 0..w.blocks() {
+        for k in 0..w.groups() {
+            for (r, totals) in weights.iter_mut().enumerate() {
+                let j = w.first + (block * LANES + r) as i32;
+                let dv = j as f32 - w.fy;
+                let e = w.row_scale * (dv * dv);
+                let middle = w.fx + w.slope * dv;
+                let start = floor32(middle - w.run) + 1.0;
+                let x = w.x0 + start as i64 + (k * LANES) as i64;
+                let run = w.row(j, level, wrap).with_run(x, |run| *run);
+                for i in 0..LANES {
+                    let dx = (start + (k * LANES + i) as f32) - middle;
+                    let weight = weigh(e + w.run_scale * (dx * dx), w);
+                    totals[i] += weight;
+                    for c in 0..4 {
+                        sums[i][c] += weight * (run[i][c] - centre[c]);
+                    }
+                }
             }
         }
     }
-
-    /// Folds the lanes, eight to four to two to one.
-    fn finish(&self, centre: [f32; 4]) -> [f32; 4] {
-        let w = &self.weights;
-        let weight = ((w[0] + w[4]) + (w[2] + w[6])) + ((w[1] + w[5]) + (w[3] + w[7]));
-        if weight <= 0.0 {
-            return centre;
-        }
-        let t = &self.texels;
-        core::array::from_fn(|c| {
-            let even = (t[0][c] + t[4][c]) + (t[2][c] + t[6][c]);
-            let odd = (t[1][c] + t[5][c]) + (t[3][c] + t[7][c]);
-            centre[c] + (even + odd) / weight
-        })
+    let fold = |v: [f32; LANES]| (v[0] + v[2]) + (v[1] + v[3]);
+    let columns = core::array::from_fn(|i| fold(core::array::from_fn(|r| weights[r][i])));
+    let total = fold(columns);
+    if total <= 0.0 {
+        return centre;
     }
+    core::array::from_fn(|c| centre[c] + fold(core::array::from_fn(|i| sums[i][c])) / total)
+}
+
+/// The weight at an exponent: nothing beyond the cut.
+#[inline(always)]
+fn weigh(e: f32, w: &Walk) -> f32 {
+    if e <= w.cut { gaussian(e) } else { 0.0 }
 }

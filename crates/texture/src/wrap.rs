@@ -21,7 +21,7 @@ pub(crate) const FAR: f64 = 1_099_511_627_776.0;
 
 impl Wrap {
     /// The texel that stands at index `i` of an axis with `n` texels; `None` for the constant.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn resolve(self, i: i64, n: usize) -> Option<usize> {
         let size = n as i64;
         if (0..size).contains(&i) {
@@ -38,27 +38,44 @@ impl Wrap {
         }
     }
 
-    /// The same place on an axis of `n` texels, brought so near that an index fits an `i64`.
-    /// `None` for NaN and infinities.
-    #[inline]
-    pub(crate) fn reduce(self, u: f64, n: usize) -> Option<f64> {
-        if !u.is_finite() {
-            return None;
-        }
-        let n = n as f64;
-        let period = match self {
-            Self::Clamp | Self::Constant(_) => return Some(u.clamp(-FAR, FAR)),
-            Self::Repeat => n,
-            Self::Mirror => 2.0 * n,
-        };
-        Some((u - period * crate::math::floor(u / period)).clamp(0.0, period))
-    }
-
     /// The colour outside, for the wrap that has one.
     pub(crate) fn border(self) -> [f32; 4] {
         match self {
             Self::Constant(c) => c.0,
             _ => [0.0; 4],
+        }
+    }
+}
+
+/// Brings positions along one axis so near that an index fits an integer: by whole periods where the
+/// wrap has one, else to within [`FAR`]. Prepared once, and without a branch on the position.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Nearer {
+    periodic: bool,
+    period: f64,
+    inverse: f64,
+}
+
+impl Nearer {
+    /// For an axis of `n` texels.
+    pub(crate) fn new(wrap: Wrap, n: usize) -> Self {
+        let period = match wrap {
+            Wrap::Clamp | Wrap::Constant(_) => 1.0,
+            Wrap::Repeat => n as f64,
+            Wrap::Mirror => 2.0 * n as f64,
+        };
+        let periodic = matches!(wrap, Wrap::Repeat | Wrap::Mirror);
+        Self { periodic, period, inverse: 1.0 / period }
+    }
+
+    /// The same place on the axis; anything at all for a position that is not finite.
+    #[inline(always)]
+    pub(crate) fn bring(&self, u: f64) -> f64 {
+        if self.periodic {
+            // The bounds catch the last bit of the product, and positions of 2⁵² periods and more.
+            (u - self.period * crate::math::floor(u * self.inverse)).max(0.0).min(self.period)
+        } else {
+            u.max(-FAR).min(FAR)
         }
     }
 }
@@ -81,14 +98,13 @@ mod tests {
     #[test]
     fn far_positions_come_near_and_near_ones_stay() {
         for wrap in [Wrap::Clamp, Wrap::Repeat, Wrap::Mirror] {
-            assert_eq!(wrap.reduce(1.25, 3), Some(1.25));
-            assert_eq!(wrap.reduce(f64::NAN, 3), None);
-            assert_eq!(wrap.reduce(f64::INFINITY, 3), None);
+            let near = Nearer::new(wrap, 3);
+            assert_eq!(near.bring(1.25), 1.25);
             for far in [1e18, -1e18, 1e300, -1e300] {
-                assert!(wrap.reduce(far, 3).is_some_and(|u| u.abs() <= FAR));
+                assert!(near.bring(far).abs() <= FAR);
             }
         }
-        assert_eq!(Wrap::Repeat.reduce(-0.75, 3), Some(2.25));
-        assert_eq!(Wrap::Mirror.reduce(-0.75, 3), Some(5.25));
+        assert_eq!(Nearer::new(Wrap::Repeat, 3).bring(-0.75), 2.25);
+        assert_eq!(Nearer::new(Wrap::Mirror, 3).bring(-0.75), 5.25);
     }
 }

@@ -8,7 +8,8 @@ use proptest::prelude::*;
 use scumble_geometry::{DVec2, Homography, Matrix2};
 use scumble_pixel::{Premul, WorkingSpace};
 use scumble_texture::{
-    Decimation, Footprint, LevelMode, Levels, PixelFilter, Sampler, Texture, TextureOptions, Wrap,
+    Decimation, Footprint, LevelMode, Levels, PixelFilter, Sampler, Simd, Texture, TextureOptions,
+    Wrap,
 };
 
 fn wraps() -> impl Strategy<Value = Wrap> {
@@ -98,6 +99,25 @@ proptest! {
                 let f = Footprint::at(&map, DVec2::new(x + i as f64, y));
                 prop_assert_eq!(*c, t.sample(&f, &sampler));
             }
+        }
+    }
+
+    #[test]
+    fn every_instruction_set_gives_the_same_bits(
+        width in 1usize..40, height in 1usize..40, seed: u64,
+        options in options(), sampler in samplers(), f in footprints(),
+        x in -50.0..1300.0f64, y in -30.0..700.0f64,
+    ) {
+        let t = texture(width, height, seed, &options).with_simd(Simd::SCALAR);
+        let one = t.sample(&f, &sampler);
+        let mut row = [Premul::TRANSPARENT; 21];
+        t.sample_row(&ground(64), DVec2::new(x, y), &sampler, &mut row);
+        for simd in Simd::all() {
+            let t = t.clone().with_simd(simd);
+            prop_assert_eq!(t.sample(&f, &sampler), one, "{:?}", simd);
+            let mut other = [Premul::TRANSPARENT; 21];
+            t.sample_row(&ground(64), DVec2::new(x, y), &sampler, &mut other);
+            prop_assert_eq!(other, row, "{:?}", simd);
         }
     }
 

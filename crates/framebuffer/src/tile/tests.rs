@@ -272,3 +272,21 @@ fn nonsense_is_ignored() {
     t.blend_masked(0, 0, 3, nan);
     t.composite(&t.clone(), f32::INFINITY);
 }
+
+#[test]
+fn memory_is_as_stated() {
+    for samples in [1, 4, 64] {
+        let mut t = Tile::new();
+        t.reset(32, 32, samples, WHITE);
+        for _ in 0..2 {
+            for i in 0..32 * 32 {
+                t.blend_masked(i % 32, i / 32, 1, RED);
+            }
+            let bytes = size_of::<Premul>() * (t.colors.capacity() + t.store.color_capacity())
+                + size_of::<Slot>() * t.slots.capacity()
+                + SampleStore::OVERHEAD * t.store.slot_capacity();
+            assert!(bytes as u64 <= Tile::max_bytes(32, 32, samples), "{bytes}");
+            t.reset(32, 32, samples, WHITE);
+        }
+    }
+}

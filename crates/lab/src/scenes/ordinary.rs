@@ -3,87 +3,52 @@
 use super::Scene;
 use crate::svg::{Profile, Svg, number};
 
+/// Name, width, height, what it is about, and the body.
+type Written = (&'static str, u32, u32, &'static str, &'static str);
+
+const WRITTEN: [Written; 10] = [
+    ("shapes", 400, 300, "rect, rounded rect, circle, ellipse, line, polyline, polygon", SHAPES),
+    (
+        "path_fill",
+        420,
+        220,
+        "the two fill rules on the same outlines, shapes with holes",
+        PATH_FILL,
+    ),
+    (
+        "path_curves",
+        420,
+        300,
+        "quadratic and cubic curves, smooth, relative, absolute",
+        PATH_CURVES,
+    ),
+    ("use", 400, 300, "g, defs, use and symbol: one drawing in many places", USE),
+    ("transform", 420, 300, "transforms nested, listed, about a centre, mirrored", TRANSFORM),
+    ("opacity", 400, 300, "of fill, of stroke, and of a group, which is thinned as one", OPACITY),
+    (
+        "css",
+        400,
+        300,
+        "attributes, a style sheet, style attributes, in rising order of weight",
+        CSS,
+    ),
+    ("image_file", 420, 300, "pictures beside the file, shrunk and magnified", IMAGE_FILE),
+    ("viewbox", 360, 240, "a nested view shows 10×10 units of its own, and clips", VIEWBOX),
+    ("hidden", 300, 200, "display, visibility, none, zero sizes: the red must not show", HIDDEN),
+];
+
 pub(crate) fn all(data: &str) -> Vec<Scene> {
-    vec![
-        (
-            "shapes",
-            plain(
-                400,
-                300,
-                "shapes: rect, rounded rect, circle, ellipse, line, polyline, polygon",
-                SHAPES,
-            ),
-        ),
-        (
-            "path_fill",
-            plain(
-                420,
-                220,
-                "path: the two fill rules on the same outlines, and a shape with holes",
-                PATH_FILL,
-            ),
-        ),
-        (
-            "path_curves",
-            plain(
-                420,
-                300,
-                "path: quadratic and cubic curves, smooth ones, relative and absolute",
-                PATH_CURVES,
-            ),
-        ),
-        (
-            "path_arcs",
-            plain(
-                420,
-                300,
-                "path: elliptical arcs, all four of the flags, turned and squeezed",
-                &arcs(),
-            ),
-        ),
-        ("use", plain(400, 300, "g, defs, use and symbol: one drawing in many places", USE)),
-        (
-            "transform",
-            plain(420, 300, "transform: nested, listed, about a centre, mirrored", TRANSFORM),
-        ),
-        ("viewbox", viewbox()),
-        ("aspect", plain(480, 330, "preserveAspectRatio: one drawing in nine views", &aspect())),
-        (
-            "opacity",
-            plain(
-                400,
-                300,
-                "fill-opacity, stroke-opacity and the opacity of a group, which is drawn first and thinned as one",
-                OPACITY,
-            ),
-        ),
-        (
-            "css",
-            plain(
-                400,
-                300,
-                "style: attributes, a style sheet with classes, and style attributes, in rising order of weight",
-                CSS,
-            ),
-        ),
-        (
-            "image_data",
-            plain(
-                400,
-                300,
-                "image: a picture inside the file, turned, thinned and squeezed",
-                &IMAGE_DATA.replace("DATA", data),
-            ),
-        ),
-        (
-            "image_file",
-            plain(420, 300, "image: pictures beside the file, shrunk and magnified", IMAGE_FILE),
-        ),
-        (
-            "hidden",
-            plain(300, 200, "display, visibility, none, zero sizes: the red must not show", HIDDEN),
-        ),
-    ]
+    let written = |&(name, width, height, about, body): &Written| {
+        (name, plain(width, height, &format!("{name}: {about}"), body))
+    };
+    let mut scenes: Vec<Scene> = WRITTEN.iter().map(written).collect();
+    let about = "path_arcs: elliptical arcs, all four of the flags, turned and squeezed";
+    scenes.push(("path_arcs", plain(420, 300, about, &arcs())));
+    let about = "aspect: preserveAspectRatio, one drawing in nine views";
+    scenes.push(("aspect", plain(480, 330, about, &aspect())));
+    let about = "image_data: a picture inside the file, turned, thinned and squeezed";
+    scenes.push(("image_data", plain(400, 300, about, &IMAGE_DATA.replace("DATA", data))));
+    scenes
 }
 
 /// A document whose body is written out by hand.
@@ -150,7 +115,7 @@ fn arcs() -> String {
     for i in 0..6 {
         let angle = i * 30;
         body += &format!(
-            "<path d=\"M250,85 a70,24 {angle} 1 1 0.1,0\" fill=\"#7a5195\" fill-opacity=\"0.25\" stroke=\"#331a40\"/>\n"
+            "<path d=\"M240,105 a46,16 {angle} 1 1 0.1,0\" fill=\"#7a5195\" fill-opacity=\"0.25\" stroke=\"#331a40\"/>\n"
         );
     }
     body += "<!-- radii too small are scaled up; a zero radius is a line -->\n";
@@ -173,7 +138,7 @@ fn arcs() -> String {
             n(b.1)
         );
     }
-    body + "<path d=\"M230,270 a30,45 0 0 1 60,0 a30,45 0 0 0 60,0 a20,60 20 0 1 40,-20\" fill=\"none\" stroke=\"#00798c\" stroke-width=\"8\" stroke-linejoin=\"round\"/>"
+    body + "<path d=\"M220,220 a30,45 0 0 1 60,0 a30,45 0 0 0 60,0 a20,60 20 0 1 40,-20\" fill=\"none\" stroke=\"#00798c\" stroke-width=\"8\" stroke-linejoin=\"round\"/>"
 }
 
 const USE: &str = r##"
@@ -237,14 +202,7 @@ const TRANSFORM: &str = r##"
 </g>
 "##;
 
-fn viewbox() -> String {
-    let mut svg = Svg::new(
-        Profile::Svg,
-        360,
-        240,
-        "viewBox: the root shows 360×240 units; a nested one shows 10×10 of its own, and clips",
-    );
-    let body = r##"
+const VIEWBOX: &str = r##"
 <rect width="360" height="240" fill="#1d2b38"/>
 <svg x="20" y="20" width="200" height="200" viewBox="-5 -5 10 10">
   <circle r="5" fill="#f2c14e"/>
@@ -261,11 +219,6 @@ fn viewbox() -> String {
   <rect width="10" height="9" fill="none" stroke="#ffffff" stroke-width=".2"/>
 </svg>
 "##;
-    for line in body.trim_matches('\n').lines() {
-        svg.line(line);
-    }
-    svg.finish()
-}
 
 fn aspect() -> String {
     let ways = [

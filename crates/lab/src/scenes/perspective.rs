@@ -123,8 +123,8 @@ const CSS3D: &str = r##"
   <rect x="-60" y="-35" width="120" height="70" rx="14" fill="#00798c" stroke="#003d5b" stroke-width="5"/>
   <path d="M-40,10 l20,-25 l20,25 l20,-25 l20,25" fill="none" stroke="#ffffff" stroke-width="6" stroke-linejoin="round"/>
 </g></g>
-<g transform="translate(350 235)"><g style="transform: perspective(220px) rotateX(60deg) rotateZ(30deg)">
-  <image x="-120" y="-60" width="240" height="120" href="textures/world.png"/>
+<g transform="translate(340 240)"><g style="transform: perspective(240px) rotateX(55deg) rotateZ(20deg)">
+  <image x="-100" y="-50" width="200" height="100" href="textures/world.png"/>
 </g></g>
 "##;
 

@@ -33,15 +33,15 @@ fn cube() -> String {
         "cube: three faces of flat triangles in perspective, each pair sharing its diagonal",
     );
     let place = |p: Solid| -> Point {
-        let [x, y, z] = turn_x(turn_y(p, 0.09), -0.075);
+        let [x, y, z] = turn_x(turn_y(p, 0.09), 0.075);
         let depth = 4.4 + z;
-        (200.0 + 560.0 * x / depth, 205.0 + 560.0 * y / depth)
+        (200.0 + 480.0 * x / depth, 195.0 + 480.0 * y / depth)
     };
     type Face = (fn(f64, f64) -> Solid, [f64; 3], f64);
     let faces: [Face; 3] = [
         (|s, t| [s, -1.0, -t], [0.98, 0.80, 0.38], 1.0),
         (|s, t| [s, t, -1.0], [0.86, 0.36, 0.24], 0.9),
-        (|s, t| [-1.0, t, -s], [0.26, 0.42, 0.62], 0.8),
+        (|s, t| [1.0, t, s], [0.26, 0.42, 0.62], 0.8),
     ];
     const N: i32 = 6;
     for (face, color, light) in faces {

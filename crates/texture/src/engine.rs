@@ -1,0 +1,36 @@
+use crate::Wrap;
+use crate::level::Level;
+use crate::walk::Walk;
+use fearless_simd::Simd;
+
+/// The inner loops, in scalar code or in vectors: the same bits from each.
+pub(crate) trait Engine: Copy {
+    /// The weighted average of the texels in an ellipse.
+    fn walk(self, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4];
+}
+
+/// The definition.
+#[derive(Clone, Copy)]
+pub(crate) struct Scalar;
+
+/// Vectors of an instruction set, inside a function compiled for it.
+#[derive(Clone, Copy)]
+pub(crate) struct Vector<S>(pub(crate) S);
+
+impl Engine for Scalar {
+    #[inline(always)]
+    fn walk(self, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
+        crate::walk::walk(level, wrap, w)
+    }
+}
+
+impl<S: Simd> Engine for Vector<S> {
+    #[inline(always)]
+    fn walk(self, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
+        // A function of its own, compiled once for the instruction set.
+        self.0.vectorize(
+            #[inline(always)]
+            || crate::walk_simd::walk(self.0, level, wrap, w),
+        )
+    }
+}
