@@ -17,7 +17,7 @@ const fn step(name: &'static str, args: &'static str) -> Step {
 }
 
 /// Quick ones first. The last is the README's first command.
-const STEPS: [Step; 9] = [
+const STEPS: [Step; 10] = [
     step("format", "fmt --all -- --check"),
     step("clippy", "clippy --workspace --all-targets --all-features -- -D warnings"),
     Step {
@@ -28,6 +28,7 @@ const STEPS: [Step; 9] = [
     step("geometry without std", "check -p scumble-geometry --no-default-features --features libm"),
     step("pixel without std", "check -p scumble-pixel --no-default-features"),
     step("coverage without std", "check -p scumble-coverage --no-default-features --features libm"),
+    step("framebuffer without std", "check -p scumble-framebuffer --no-default-features"),
     step("texture without std", "check -p scumble-texture --no-default-features --features libm"),
     step("tests", "test --workspace"),
     step(
