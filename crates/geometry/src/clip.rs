@@ -39,6 +39,19 @@ pub fn clip_polygon(polygon: &[DVec3], min_w: f64, out: &mut Vec<DVec3>) {
     }
 }
 
+/// The part of a segment in homogeneous coordinates (X, Y, w) that lies in the half-space
+/// w ≥ `min_w`, its ends in their order; `None` if there is none or a number is not finite.
+#[must_use]
+pub fn clip_segment([a, b]: [DVec3; 2], min_w: f64) -> Option<[DVec3; 2]> {
+    let ends = match (a.z >= min_w, b.z >= min_w) {
+        (true, true) => [a, b],
+        (true, false) => [a, crossing(a, b, min_w)],
+        (false, true) => [crossing(b, a, min_w), b],
+        (false, false) => return None,
+    };
+    [a, b, ends[0], ends[1]].iter().all(|p| p.is_finite()).then_some(ends)
+}
+
 /// Where the segment from a point with w ≥ `min_w` to one with less meets w = `min_w`.
 fn crossing(inside: DVec3, outside: DVec3, min_w: f64) -> DVec3 {
     let t = (inside.z - min_w) / (inside.z - outside.z);

@@ -70,6 +70,7 @@ mod math;
 mod matrix2;
 #[cfg(feature = "paths")]
 mod path;
+mod ramp;
 mod rect;
 #[cfg(feature = "paths")]
 mod stroke;
@@ -77,7 +78,7 @@ mod triangle;
 mod triangulate;
 
 pub use affine::Affine;
-pub use clip::{clip_polygon, clip_polygon_to_rect};
+pub use clip::{clip_polygon, clip_polygon_to_rect, clip_segment};
 pub use contours::Contours;
 pub use error::GeometryError;
 pub use fill_rule::FillRule;
@@ -88,6 +89,7 @@ pub use line::{line_quad, line_quad_square};
 pub use matrix2::{Axes, Matrix2};
 #[cfg(feature = "paths")]
 pub use path::{Path, PathElement};
+pub use ramp::Ramp;
 pub use rect::{IntRect, Rect};
 #[cfg(feature = "paths")]
 pub use stroke::{Cap, Join, StrokeStyle};

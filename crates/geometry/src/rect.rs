@@ -122,6 +122,19 @@ impl IntRect {
         }
     }
 
+    /// Its four quarters, row by row; some are empty if a side is 1.
+    #[must_use]
+    pub fn quarters(&self) -> [Self; 4] {
+        let Self { x0, y0, x1, y1 } = *self;
+        let (x, y) = (x0.midpoint(x1), y0.midpoint(y1));
+        [
+            Self::new(x0, y0, x, y),
+            Self::new(x, y0, x1, y),
+            Self::new(x0, y, x, y1),
+            Self::new(x, y, x1, y1),
+        ]
+    }
+
     /// Whether pixel (x, y) is in it.
     #[must_use]
     pub fn contains(&self, x: i32, y: i32) -> bool {

@@ -49,7 +49,6 @@ pub(crate) struct Bins {
     starting: Vec<Vec<u32>>,
     /// The primitives that touch the band at hand, in drawing order.
     active: Vec<u32>,
-    merged: Vec<u32>,
 }
 
 impl Bins {
@@ -62,16 +61,16 @@ impl Bins {
                 starting[band].push(i as u32);
             }
         }
-        Self { grid, starting, active: Vec::new(), merged: Vec::new() }
+        Self { grid, starting, active: Vec::new() }
     }
 
     /// Fills one list for each tile of a band. Bands must be asked for in order.
     pub(crate) fn fill(&mut self, band: usize, draws: &[Draw], lists: &mut [Vec<u32>]) {
         let top = self.grid.tile_rect(0, band).y0;
         self.active.retain(|&i| draws[i as usize].bounds.y1 > top);
-        merge(&self.active, &self.starting[band], &mut self.merged);
-        std::mem::swap(&mut self.active, &mut self.merged);
-        self.starting[band] = Vec::new();
+        self.active.extend(std::mem::take(&mut self.starting[band]));
+        // Two sorted runs: the standard sort finds and merges them in linear time.
+        self.active.sort();
 
         for list in &mut *lists {
             list.clear();
@@ -83,16 +82,4 @@ impl Bins {
             }
         }
     }
-}
-
-/// Merges two sorted lists without common elements.
-fn merge(a: &[u32], b: &[u32], out: &mut Vec<u32>) {
-    out.clear();
-    let (mut a, mut b) = (a.iter().peekable(), b.iter().peekable());
-    while let (Some(x), Some(y)) = (a.peek(), b.peek()) {
-        let from_a = x < y;
-        out.extend(if from_a { a.next() } else { b.next() });
-    }
-    out.extend(a);
-    out.extend(b);
 }

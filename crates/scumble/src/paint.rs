@@ -1,7 +1,7 @@
 //! What colour a primitive has at a position: the one thing that a tile asks of it.
 
 use crate::plan::Surface;
-use scumble_geometry::{DVec2, DVec3, Homography, Interpolator, Matrix2};
+use scumble_geometry::{DVec2, Homography, Matrix2, Ramp};
 use scumble_pixel::Premul;
 use scumble_texture::{Footprint, Sampler};
 
@@ -11,70 +11,9 @@ pub(crate) enum Paint {
     /// One colour.
     Solid(Premul),
     /// Colours interpolated between three corners.
-    Gouraud(Box<Gouraud>),
+    Gouraud(Box<Ramp<4>>),
     /// An image.
     Textured(Box<Textured>),
-}
-
-/// Colours interpolated between the corners of a triangle.
-#[derive(Debug, Clone)]
-pub(crate) struct Gouraud {
-    interpolator: Interpolator,
-    colors: [[f64; 4]; 3],
-    /// Without perspective: where the ramp counts from, and there the colour and its change per
-    /// pixel along x and y.
-    ramp: Option<(DVec2, [[f32; 4]; 3])>,
-    low: [f32; 4],
-    high: [f32; 4],
-}
-
-impl Gouraud {
-    /// Colours at three homogeneous positions (x·w, y·w, w) on the screen; `None` without area.
-    pub(crate) fn new(positions: [DVec3; 3], colors: [Premul; 3]) -> Option<Self> {
-        let interpolator = Interpolator::new(positions).ok()?;
-        let values = colors.map(|color| color.0.map(f64::from));
-        let ramp = interpolator.is_affine().then(|| {
-            let origin = positions[0].truncate() / positions[0].z;
-            let at = |p| interpolator.interpolate(p, &values);
-            let (here, right, below) = (at(origin), at(origin + DVec2::X), at(origin + DVec2::Y));
-            let slope = |to: [f64; 4]| std::array::from_fn(|i| (to[i] - here[i]) as f32);
-            (origin, [here.map(|v| v as f32), slope(right), slope(below)])
-        });
-        let [a, b, c] = colors.map(|color| color.0);
-        let low = std::array::from_fn(|i| a[i].min(b[i]).min(c[i]));
-        let high = std::array::from_fn(|i| a[i].max(b[i]).max(c[i]));
-        Some(Self { interpolator, colors: values, ramp, low, high })
-    }
-
-    /// Just outside the triangle, where the centre of a pixel may lie that the triangle covers in
-    /// part, a colour stays between those of the corners. A NaN becomes the lower bound.
-    fn clamp(&self, color: [f32; 4]) -> Premul {
-        Premul(std::array::from_fn(|i| color[i].max(self.low[i]).min(self.high[i])))
-    }
-
-    fn at(&self, p: DVec2) -> Premul {
-        let mut color = [Premul::TRANSPARENT];
-        self.row(p, &mut color);
-        color[0]
-    }
-
-    /// What comes out at a position does not depend on where the row starts.
-    fn row(&self, start: DVec2, out: &mut [Premul]) {
-        let Some((origin, [here, right, below])) = self.ramp else {
-            for (i, color) in out.iter_mut().enumerate() {
-                let p = DVec2::new(start.x + i as f64, start.y);
-                *color =
-                    self.clamp(self.interpolator.interpolate(p, &self.colors).map(|v| v as f32));
-            }
-            return;
-        };
-        let y = (start.y - origin.y) as f32;
-        let left: [f32; 4] = std::array::from_fn(|i| here[i] + below[i] * y);
-        for (i, color) in out.iter_mut().enumerate() {
-            let x = (start.x + i as f64 - origin.x) as f32;
-            *color = self.clamp(std::array::from_fn(|i| left[i] + right[i] * x));
-        }
-    }
 }
 
 /// An image laid over the screen by a projective map.
@@ -139,7 +78,7 @@ impl Paint {
     pub(crate) fn is_opaque(&self) -> bool {
         match self {
             Self::Solid(color) => color.alpha() >= 1.0,
-            Self::Gouraud(gouraud) => gouraud.low[3] >= 1.0,
+            Self::Gouraud(ramp) => ramp.low()[3] >= 1.0,
             Self::Textured(textured) => textured.opaque,
         }
     }
@@ -148,7 +87,7 @@ impl Paint {
     pub(crate) fn row(&self, surfaces: &[Option<Surface>], start: DVec2, out: &mut [Premul]) {
         match self {
             Self::Solid(color) => out.fill(*color),
-            Self::Gouraud(gouraud) => gouraud.row(start, out),
+            Self::Gouraud(ramp) => ramp.fill(start, out, Premul),
             Self::Textured(textured) => textured.row(surfaces, start, out),
         }
     }
@@ -157,7 +96,7 @@ impl Paint {
     pub(crate) fn sample(&self, surfaces: &[Option<Surface>], p: DVec2, share: f64) -> Premul {
         match self {
             Self::Solid(color) => *color,
-            Self::Gouraud(gouraud) => gouraud.at(p),
+            Self::Gouraud(ramp) => Premul(ramp.at(p)),
             Self::Textured(textured) => textured.share(surfaces, p, share),
         }
     }

@@ -1,10 +1,11 @@
 //! From a scene to primitives: transformed, flattened, snapped, with textures built.
 
-use crate::paint::{Gouraud, Paint, Textured};
+use crate::paint::{Paint, Textured};
 use crate::{Interpolation, Settings};
 use scumble_coverage::{Cover, Shape};
 use scumble_geometry::{
-    Affine, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Rect, clip_polygon, line_quad,
+    Affine, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Ramp, Rect, clip_polygon,
+    clip_segment, line_quad,
 };
 use scumble_pixel::{Premul, Straight};
 use scumble_scene::{
@@ -63,6 +64,8 @@ pub(crate) enum Form {
 pub(crate) struct Layer {
     pub(crate) parent: u32,
     pub(crate) opacity: f32,
+    /// How many layers are open while it is, itself and the canvas among them.
+    pub(crate) depth: u64,
 }
 
 /// What the tiles replay.
@@ -84,7 +87,7 @@ pub(crate) fn build(scene: &Scene, settings: &Settings, surfaces: Vec<Option<Sur
         layer: 0,
         plan: Plan {
             draws: Vec::with_capacity(scene.commands.len()),
-            layers: vec![Layer { parent: 0, opacity: 1.0 }],
+            layers: vec![Layer { parent: 0, opacity: 1.0, depth: 1 }],
             surfaces,
         },
     };
@@ -124,7 +127,8 @@ impl Planner<'_> {
     }
 
     fn push_layer(&mut self, opacity: f32) {
-        let layer = Layer { parent: self.layer, opacity: opacity.clamp(0.0, 1.0) };
+        let depth = self.plan.layers[self.layer as usize].depth + 1;
+        let layer = Layer { parent: self.layer, opacity: opacity.clamp(0.0, 1.0), depth };
         self.layer = self.plan.layers.len() as u32;
         self.plan.layers.push(layer);
     }
@@ -177,8 +181,9 @@ impl Planner<'_> {
         let paint = if colors[0] == colors[1] && colors[1] == colors[2] {
             Some(Paint::Solid(colors[0]))
         } else {
-            Gouraud::new(self.attribute_corners(corners), colors)
-                .map(|gouraud| Paint::Gouraud(Box::new(gouraud)))
+            Ramp::new(self.attribute_corners(corners), colors.map(|color| color.0))
+                .ok()
+                .map(|ramp| Paint::Gouraud(Box::new(ramp)))
         };
         if let Some(paint) = paint {
             self.push_shape(triangle_shape(corners, to_canvas.near_w()), paint);
@@ -242,8 +247,8 @@ impl Planner<'_> {
     fn hairline(&mut self, line: &Hairline) {
         let to_canvas = self.to_canvas(&line.transform);
         let ends = [line.from, line.to].map(|p| to_canvas.project_homogeneous(p));
-        if let Some(ends) = visible_part(ends, to_canvas.near_w()) {
-            self.hairline_on_canvas(ends, line.color);
+        if let Some(ends) = clip_segment(ends, to_canvas.near_w()) {
+            self.hairline_on_canvas(ends.map(divide), line.color);
         }
     }
 
@@ -326,18 +331,6 @@ fn polygon_shape(corners: &[DVec3], min_w: f64) -> Option<Shape> {
     clip_polygon(corners, min_w, &mut clipped);
     let points: Vec<DVec2> = clipped.into_iter().map(divide).collect();
     Shape::polygon([&points[..]], FillRule::NonZero).ok().flatten()
-}
-
-/// The part of a line before the eye, on the screen.
-fn visible_part(ends: [DVec3; 2], min_w: f64) -> Option<[DVec2; 2]> {
-    let [a, b] = ends;
-    // The line there and back is an outline.
-    let mut clipped = Vec::new();
-    clip_polygon(&[a, b], min_w, &mut clipped);
-    let seen = |p: DVec3, other: DVec3| {
-        if p.z >= min_w { Some(p) } else { clipped.iter().copied().find(|&q| q != other) }
-    };
-    Some([divide(seen(a, b)?), divide(seen(b, a)?)])
 }
 
 fn divide(p: DVec3) -> DVec2 {

@@ -1,8 +1,9 @@
 use crate::bins::{Bins, Grid};
-use crate::plan::{self, Draw, Layer, Plan, Surface};
+use crate::plan::{self, Draw, Plan, Surface};
 use crate::schedule::{self, Pool};
 use crate::tile::Job;
 use crate::{Background, Control, ImageSink, RenderError, Settings, Sink};
+use scumble_framebuffer::Tile;
 use scumble_geometry::IntRect;
 use scumble_pixel::{Image, Premul};
 use scumble_scene::{Command, ImageId, ImageWrap, Scene, SceneImage};
@@ -162,22 +163,13 @@ fn check_memory<E>(
     threads: usize,
     texture_bytes: usize,
 ) -> Result<(), RenderError<E>> {
-    let samples = settings.pattern.len() as u64 + 1;
-    let tile = u64::from(settings.tile_size).pow(2) * samples * size_of::<Premul>() as u64;
-    let tiles = tile.saturating_mul(depth(&plan.layers)).saturating_mul(threads as u64);
+    let (side, samples) = (settings.tile_size, settings.pattern.len() as u32);
+    let tile = Tile::max_bytes(side, side, samples);
+    let depth = plan.layers.iter().map(|layer| layer.depth).max().unwrap_or(1);
+    let tiles = tile.saturating_mul(depth).saturating_mul(threads as u64);
     let rows = schedule::buffered_rows(grid, threads) as u64 * u64::from(grid.area.width()) * 4;
     let draws = (plan.draws.len() * size_of::<Draw>()) as u64;
     let needed =
         [tiles, rows, draws, texture_bytes as u64].into_iter().fold(0u64, u64::saturating_add);
     check_limit(needed, settings)
-}
-
-/// The most layers that are ever open at once, the canvas among them. A layer stands after its
-/// parent.
-fn depth(layers: &[Layer]) -> u64 {
-    let mut depths = vec![1u64; layers.len()];
-    for (i, layer) in layers.iter().enumerate().skip(1) {
-        depths[i] = depths[layer.parent as usize] + 1;
-    }
-    depths.into_iter().max().unwrap_or(1)
 }

@@ -153,7 +153,7 @@ impl Replay<'_> {
             return;
         }
         let mut touching = self.work.lists.pop().unwrap_or_default();
-        for quarter in quarters(rect) {
+        for quarter in rect.quarters() {
             touching.clear();
             touching.extend(list.iter().filter(|&&i| job.draw_of(i).touches(quarter)));
             self.part(quarter, &touching);
@@ -266,14 +266,6 @@ impl Sink for Painter<'_> {
         let (lx, ly) = self.local(x, y);
         self.tile.blend_masked(lx, ly, mask.0, color);
     }
-}
-
-/// The four parts of a rectangle; some are empty if a side is 1.
-fn quarters(rect: IntRect) -> [IntRect; 4] {
-    let IntRect { x0, y0, x1, y1 } = rect;
-    let (x, y) = (x0.midpoint(x1), y0.midpoint(y1));
-    [(x0, y0, x, y), (x, y0, x1, y), (x0, y, x, y1), (x, y, x1, y1)]
-        .map(|(x0, y0, x1, y1)| IntRect::new(x0, y0, x1, y1))
 }
 
 fn centre(x: i32, y: i32) -> DVec2 {

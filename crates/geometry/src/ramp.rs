@@ -1,0 +1,88 @@
+use crate::{DVec2, DVec3, GeometryError, Interpolator};
+
+/// An attribute of N numbers over a projected triangle, such as a colour, made to be filled in row
+/// by row in `f32`.
+///
+/// It never leaves the range of its corners' values, component by component, not even just outside
+/// the triangle, where the centre of a pixel may lie that the triangle covers in part. And its value
+/// at a position does not depend on where the row begins.
+///
+/// ```
+/// use scumble_geometry::{DVec2, DVec3, Ramp};
+/// let corners = [DVec3::new(0.0, 0.0, 1.0), DVec3::new(4.0, 0.0, 1.0), DVec3::new(0.0, 4.0, 1.0)];
+/// let ramp = Ramp::new(corners, [[0.0], [1.0], [0.0]])?;
+/// let mut row = [[0.0]; 5];
+/// ramp.fill(DVec2::new(1.0, 1.0), &mut row, |value| value);
+/// assert_eq!(row, [[0.25], [0.5], [0.75], [1.0], [1.0]]);
+/// # Ok::<(), scumble_geometry::GeometryError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Ramp<const N: usize> {
+    interpolator: Interpolator,
+    values: [[f64; N]; 3],
+    /// Without perspective: where it counts from, and there the value and its change per pixel
+    /// along x and y.
+    slopes: Option<(DVec2, [[f32; N]; 3])>,
+    low: [f32; N],
+    high: [f32; N],
+}
+
+impl<const N: usize> Ramp<N> {
+    /// Values at three vertices in homogeneous screen coordinates (X, Y, w), as for
+    /// [`Interpolator::new`].
+    ///
+    /// # Errors
+    /// Those of [`Interpolator::new`].
+    pub fn new(positions: [DVec3; 3], values: [[f32; N]; 3]) -> Result<Self, GeometryError> {
+        let interpolator = Interpolator::new(positions)?;
+        let [a, b, c] = values;
+        let low = core::array::from_fn(|i| a[i].min(b[i]).min(c[i]));
+        let high = core::array::from_fn(|i| a[i].max(b[i]).max(c[i]));
+        let values = values.map(|value| value.map(f64::from));
+        let slopes = interpolator.is_affine().then(|| {
+            let origin = positions[0].truncate() / positions[0].z;
+            let at = |p| interpolator.interpolate(p, &values);
+            let (here, right, below) = (at(origin), at(origin + DVec2::X), at(origin + DVec2::Y));
+            let slope = |to: [f64; N]| core::array::from_fn(|i| (to[i] - here[i]) as f32);
+            (origin, [here.map(|v| v as f32), slope(right), slope(below)])
+        });
+        Ok(Self { interpolator, values, slopes, low, high })
+    }
+
+    /// The least that each component can be.
+    #[must_use]
+    pub fn low(&self) -> [f32; N] {
+        self.low
+    }
+
+    /// The value at one position.
+    #[must_use]
+    pub fn at(&self, p: DVec2) -> [f32; N] {
+        let mut out = [[0.0; N]];
+        self.fill(p, &mut out, |value| value);
+        out[0]
+    }
+
+    /// What `make` makes of the values at `start`, `start` + (1, 0), and so on.
+    pub fn fill<T>(&self, start: DVec2, out: &mut [T], make: impl Fn([f32; N]) -> T) {
+        let Some((origin, [here, right, below])) = self.slopes else {
+            for (i, out) in out.iter_mut().enumerate() {
+                let p = DVec2::new(start.x + i as f64, start.y);
+                let value = self.interpolator.interpolate(p, &self.values);
+                *out = make(self.clamp(value.map(|v| v as f32)));
+            }
+            return;
+        };
+        let y = (start.y - origin.y) as f32;
+        let left: [f32; N] = core::array::from_fn(|i| here[i] + below[i] * y);
+        for (i, out) in out.iter_mut().enumerate() {
+            let x = (start.x + i as f64 - origin.x) as f32;
+            *out = make(self.clamp(core::array::from_fn(|i| left[i] + right[i] * x)));
+        }
+    }
+
+    /// A NaN becomes the lower bound.
+    fn clamp(&self, value: [f32; N]) -> [f32; N] {
+        core::array::from_fn(|i| value[i].max(self.low[i]).min(self.high[i]))
+    }
+}
