@@ -1,6 +1,7 @@
 //! Commands that only call others.
 
 use crate::{Outcome, root, tidy};
+use serde_json::Value;
 use std::process::Command;
 use std::time::Instant;
 
@@ -16,7 +17,7 @@ const fn step(name: &'static str, args: &'static str) -> Step {
 }
 
 /// Quick ones first. The last is the README's first command.
-const STEPS: [Step; 9] = [
+const STEPS: [Step; 10] = [
     step("format", "fmt --all -- --check"),
     step("clippy", "clippy --workspace --all-targets --all-features -- -D warnings"),
     Step {
@@ -27,6 +28,7 @@ const STEPS: [Step; 9] = [
     step("geometry without std", "check -p scumble-geometry --no-default-features --features libm"),
     step("pixel without std", "check -p scumble-pixel --no-default-features"),
     step("coverage without std", "check -p scumble-coverage --no-default-features --features libm"),
+    step("framebuffer without std", "check -p scumble-framebuffer --no-default-features"),
     step("texture without std", "check -p scumble-texture --no-default-features --features libm"),
     step("tests", "test --workspace"),
     step(
@@ -40,6 +42,14 @@ pub(crate) fn cargo<'a>(args: impl IntoIterator<Item = &'a str>) -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(args).current_dir(root());
     command
+}
+
+/// The workspace as cargo sees it.
+pub(crate) fn metadata() -> Result<Value, String> {
+    let output = cargo(["metadata", "--format-version", "1", "--no-deps"])
+        .output()
+        .map_err(|e| format!("cargo metadata could not be started: {e}"))?;
+    serde_json::from_slice(&output.stdout).map_err(|e| format!("cargo metadata: {e}"))
 }
 
 /// Runs a command to its end; a failure is an error that names it.

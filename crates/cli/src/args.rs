@@ -117,7 +117,7 @@ Exit status:
 #[command(next_help_heading = "Files")]
 pub(crate) struct Files {
     /// How to read the scene
-    #[arg(long, value_enum, default_value_t = Profile::Auto, hide_possible_values = false)]
+    #[arg(long, value_enum, default_value_t = Profile::Auto)]
     pub(crate) profile: Profile,
 
     /// Also allow the scene's images to come from DIR and below; may be repeated

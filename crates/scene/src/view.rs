@@ -3,7 +3,8 @@ use scumble_geometry::{Affine, DVec2, Homography, Rect};
 /// How a scene is placed on a canvas of pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum View {
-    /// The whole scene as large as the canvas allows, its proportions kept, centred.
+    /// The whole scene as large as the canvas allows, its proportions kept, centred to the whole
+    /// pixel: edges that lie on pixels' borders stay on them.
     Fit {
         /// Size of the scene in scene units.
         size: DVec2,
@@ -18,6 +19,9 @@ pub enum View {
 
 /// The course leaves a margin around a scene: its span is the larger half-side times this.
 const COURSE_MARGIN: f64 = 1.2;
+
+/// A margin this little below a whole number of pixels was meant to be that number.
+const ROUNDING: f64 = 1e-6;
 
 impl View {
     /// Size of the scene in scene units.
@@ -35,7 +39,9 @@ impl View {
         match *self {
             Self::Fit { size } => {
                 let s = (w / size.x).min(h / size.y);
-                Affine::new(s, 0.0, 0.0, s, (w - size.x * s) / 2.0, (h - size.y * s) / 2.0)
+                let offset =
+                    |canvas: f64, scene: f64| ((canvas - scene * s) / 2.0 + ROUNDING).floor();
+                Affine::new(s, 0.0, 0.0, s, offset(w, size.x), offset(h, size.y))
             }
             Self::Course { size } => {
                 let side = w.min(h);
@@ -105,6 +111,19 @@ mod tests {
                     assert!(d.is_some_and(|d| d < 1e-9), "{view:?} {d:?}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn the_margins_of_a_fitted_scene_are_whole_pixels() {
+        let origin = |size: DVec2, w, h| View::Fit { size }.transform(w, h).apply(DVec2::ZERO);
+        assert_eq!(origin(DVec2::new(100.5, 50.0), 101, 50), DVec2::ZERO);
+        assert_eq!(origin(DVec2::new(100.0, 50.0), 100, 101), DVec2::new(0.0, 25.0));
+        for side in 1..500 {
+            // A scale whose rounding could take the scene a hair beyond the canvas.
+            let size = DVec2::new(f64::from(side) * 1.1, f64::from(side) * 0.7);
+            let o = origin(size, 777, 777);
+            assert_eq!(o, DVec2::new(0.0, 141.0), "{side}");
         }
     }
 

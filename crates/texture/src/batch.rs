@@ -4,16 +4,22 @@
 //! call, so that the compiler makes vectors of them. What is rare is redone one by one.
 
 use crate::covariance::Covariance;
-use crate::engine::Engine;
-use crate::ewa::{Limits, Outline, auto_pick, walk_in};
+use crate::engine::{Engine, Job};
+use crate::ewa::{Limits, auto_pick, walk_in};
+use crate::level::Frame;
 use crate::lod::Pick;
 use crate::point::lerp;
 use crate::texture::into_range;
+use crate::walk::Walk;
+use crate::walk_simd::Scratch;
 use crate::{Footprint, Texture};
 use scumble_pixel::Premul;
 
 /// Pixels set up together.
 const BATCH: usize = 16;
+
+/// Pixels from which on a batch is quicker than one by one.
+pub(crate) const WORTH: usize = 4;
 
 /// Ellipses in level 0.
 #[derive(Default)]
@@ -27,33 +33,33 @@ struct Ellipses {
     /// V₂/s².
     minor: [f64; BATCH],
     /// 1 where the footprint is finite and bounded, else 0.
-    usable: [f32; BATCH],
+    usable: [i32; BATCH],
 }
 
 /// The level of each ellipse, as the loops need it.
 #[derive(Default)]
 struct Chosen {
     pick: [Pick; BATCH],
-    scale: [[f64; BATCH]; 2],
-    blurred: [[f64; BATCH]; 2],
-    most: [[f64; BATCH]; 2],
+    frame: [Frame; BATCH],
 }
 
-/// [`Outline`]s, by field.
+/// [`Walk`]s, by field.
 #[derive(Default)]
-struct Outlines {
-    x0: [f64; BATCH],
-    y0: [f64; BATCH],
+struct Walks {
+    x0: [i32; BATCH],
+    y0: [i32; BATCH],
     fx: [f32; BATCH],
     fy: [f32; BATCH],
-    first: [f32; BATCH],
-    rise: [f32; BATCH],
+    first: [i32; BATCH],
+    blocks: [i32; BATCH],
+    groups: [i32; BATCH],
     run: [f32; BATCH],
     slope: [f32; BATCH],
     row_scale: [f32; BATCH],
     run_scale: [f32; BATCH],
+    inside: [i32; BATCH],
     /// 1 where the ellipse needs mending, else 0.
-    rare: [f32; BATCH],
+    rare: [i32; BATCH],
 }
 
 /// Samples a run of footprints with the level chosen by the ellipse.
@@ -65,6 +71,7 @@ pub(crate) fn fill(
     limits: &Limits,
     out: &mut [Premul],
 ) {
+    let mut scratch = Scratch::default();
     for (chunk, out) in out.chunks_mut(BATCH).enumerate() {
         let first = chunk * BATCH;
         let ellipses = Ellipses::new(
@@ -74,54 +81,58 @@ pub(crate) fn fill(
             |i| at(first + i),
         );
         let chosen = Chosen::new(t, &ellipses, limits);
-        let outlines = Outlines::new(&ellipses, &chosen, limits);
+        let walks = Walks::new(&ellipses, &chosen, limits);
+        let mut jobs = [Job::default(); 2 * BATCH];
+        let count = list(t, &ellipses, &chosen, &walks, limits, &mut jobs[..], out.len());
+        let mut colors = [[0.0; 4]; 2 * BATCH];
+        engine.walk_all(t, &jobs[..count], &mut scratch, &mut colors[..count]);
+        let mut colors = colors.iter();
         for (i, out) in out.iter_mut().enumerate() {
-            *out = if ellipses.usable[i] == 0.0 {
+            *out = if ellipses.usable[i] == 0 {
                 t.average()
             } else {
-                finish(t, engine, &ellipses, &chosen.pick[i], &outlines, i, limits)
+                let mut next = || colors.next().copied().unwrap_or_default();
+                let fine = next();
+                let coarser = chosen.pick[i].coarser;
+                into_range(if coarser > 0.0 { lerp(fine, next(), coarser) } else { fine })
             };
         }
     }
 }
 
-/// The walks of one pixel.
+/// The walks of the first `pixels` pixels: none for the unusable, two for those that blend. Returns
+/// how many.
 #[inline(always)]
-fn finish(
+fn list(
     t: &Texture,
-    engine: impl Engine,
     ellipses: &Ellipses,
-    pick: &Pick,
-    outlines: &Outlines,
-    i: usize,
+    chosen: &Chosen,
+    walks: &Walks,
     limits: &Limits,
-) -> Premul {
-    let level = &t.levels[pick.level];
-    let fine = if outlines.rare[i] == 0.0 {
-        engine.walk(level, t.wrap, &outlines.get(i, limits).walk())
-    } else {
-        filter(t, engine, ellipses, i, pick.level, limits)
-    };
-    if pick.coarser == 0.0 {
-        return into_range(fine);
+    jobs: &mut [Job],
+    pixels: usize,
+) -> usize {
+    let mut count = 0;
+    for i in (0..pixels).filter(|i| ellipses.usable[*i] != 0) {
+        let Pick { level, coarser } = chosen.pick[i];
+        let alone = |level: usize| {
+            let sigma = ellipses.get(i).at_level(&t.levels[level].frame);
+            walk_in(t, level, ellipses.u[i], ellipses.v[i], sigma, limits)
+        };
+        let job = &mut jobs[count];
+        job.level = level;
+        if walks.rare[i] == 0 {
+            walks.put(i, limits, &mut job.walk);
+        } else {
+            job.walk = alone(level);
+        }
+        count += 1;
+        if coarser > 0.0 {
+            jobs[count] = Job { level: level + 1, walk: alone(level + 1) };
+            count += 1;
+        }
     }
-    let coarse = filter(t, engine, ellipses, i, pick.level + 1, limits);
-    into_range(lerp(fine, coarse, pick.coarser))
-}
-
-/// One walk, set up alone.
-#[inline(always)]
-fn filter(
-    t: &Texture,
-    engine: impl Engine,
-    ellipses: &Ellipses,
-    i: usize,
-    index: usize,
-    limits: &Limits,
-) -> [f32; 4] {
-    let level = &t.levels[index];
-    let sigma = ellipses.get(i).at_level(level.scale, level.blurred);
-    engine.walk(level, t.wrap, &walk_in(t, index, ellipses.u[i], ellipses.v[i], sigma, limits))
+    count
 }
 
 impl Ellipses {
@@ -138,7 +149,7 @@ impl Ellipses {
             e.vv[i] = sigma.vv;
             e.det[i] = sigma.det;
             e.minor[i] = minor * limits.inverse_least;
-            e.usable[i] = if f.is_finite() & f.is_bounded() { 1.0 } else { 0.0 };
+            e.usable[i] = i32::from(f.is_finite() & f.is_bounded());
         }
         e
     }
@@ -155,57 +166,53 @@ impl Chosen {
         let mut chosen = Self::default();
         for i in 0..BATCH {
             let pick = auto_pick(e.minor[i], t.levels.len() - 1, limits.blend);
-            let level = &t.levels[pick.level];
             chosen.pick[i] = pick;
-            for axis in 0..2 {
-                chosen.scale[axis][i] = level.scale[axis];
-                chosen.blurred[axis][i] = level.blurred[axis];
-                chosen.most[axis][i] = level.most[axis];
-            }
+            chosen.frame[i] = t.levels[pick.level].frame;
         }
         chosen
     }
 }
 
-impl Outlines {
+impl Walks {
     #[inline(always)]
     fn new(e: &Ellipses, chosen: &Chosen, limits: &Limits) -> Self {
         let mut o = Self::default();
         for i in 0..BATCH {
-            let both = |v: &[[f64; BATCH]; 2]| [v[0][i], v[1][i]];
-            let scale = both(&chosen.scale);
-            let sigma = e.get(i).at_level(scale, both(&chosen.blurred));
-            let rare = sigma.needs_mending(both(&chosen.most), limits);
-            let outline = Outline::new(e.u[i], e.v[i], scale, &sigma, limits);
-            o.x0[i] = outline.x0;
-            o.y0[i] = outline.y0;
-            o.fx[i] = outline.fx;
-            o.fy[i] = outline.fy;
-            o.first[i] = outline.first;
-            o.rise[i] = outline.rise;
-            o.run[i] = outline.run;
-            o.slope[i] = outline.slope;
-            o.row_scale[i] = outline.row_scale;
-            o.run_scale[i] = outline.run_scale;
-            o.rare[i] = if rare { 1.0 } else { 0.0 };
+            let frame = &chosen.frame[i];
+            let sigma = e.get(i).at_level(frame);
+            let w = Walk::new(e.u[i], e.v[i], frame, &sigma, limits);
+            o.x0[i] = w.x0;
+            o.y0[i] = w.y0;
+            o.fx[i] = w.fx;
+            o.fy[i] = w.fy;
+            o.first[i] = w.first;
+            o.blocks[i] = w.blocks;
+            o.groups[i] = w.groups;
+            o.run[i] = w.run;
+            o.slope[i] = w.slope;
+            o.row_scale[i] = w.row_scale;
+            o.run_scale[i] = w.run_scale;
+            o.inside[i] = w.inside;
+            o.rare[i] = i32::from(sigma.needs_mending(frame, limits));
         }
         o
     }
 
+    /// Field by field: a copy of the whole would wait for the fields' stores.
     #[inline(always)]
-    fn get(&self, i: usize, limits: &Limits) -> Outline {
-        Outline {
-            x0: self.x0[i],
-            y0: self.y0[i],
-            fx: self.fx[i],
-            fy: self.fy[i],
-            first: self.first[i],
-            rise: self.rise[i],
-            run: self.run[i],
-            slope: self.slope[i],
-            row_scale: self.row_scale[i],
-            run_scale: self.run_scale[i],
-            cut: limits.cut,
-        }
+    fn put(&self, i: usize, limits: &Limits, w: &mut Walk) {
+        w.x0 = self.x0[i];
+        w.y0 = self.y0[i];
+        w.fx = self.fx[i];
+        w.fy = self.fy[i];
+        w.first = self.first[i];
+        w.blocks = self.blocks[i];
+        w.groups = self.groups[i];
+        w.run = self.run[i];
+        w.slope = self.slope[i];
+        w.row_scale = self.row_scale[i];
+        w.run_scale = self.run_scale[i];
+        w.cut = limits.cut;
+        w.inside = self.inside[i];
     }
 }

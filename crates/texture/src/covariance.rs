@@ -1,4 +1,5 @@
 use crate::ewa::Limits;
+use crate::level::Frame;
 use crate::math::sqrt;
 use scumble_geometry::Matrix2;
 
@@ -56,8 +57,8 @@ impl Covariance {
 
     /// S(Σ − M)S: in texels of a level, without what the pyramid has blurred.
     #[inline(always)]
-    pub(crate) fn at_level(self, scale: [f64; 2], blurred: [f64; 2]) -> Self {
-        let ([su, sv], [mu, mv]) = (scale, blurred);
+    pub(crate) fn at_level(self, frame: &Frame) -> Self {
+        let ([su, sv], [mu, mv]) = (frame.scale, frame.blurred);
         Self {
             uu: (self.uu - mu) * su * su,
             uv: self.uv * su * sv,
@@ -68,65 +69,45 @@ impl Covariance {
 
     /// Whether [`Covariance::mend`] has anything to do, or might.
     #[inline(always)]
-    pub(crate) fn needs_mending(&self, most: [f64; 2], limits: &Limits) -> bool {
-        // The minor variance lies between det/(uu + vv) and twice that.
-        let sum = self.uu + self.vv;
-        let most = most[0].max(most[1]);
-        (self.det < LEAST_VARIANCE * sum)
+    pub(crate) fn needs_mending(&self, frame: &Frame, limits: &Limits) -> bool {
+        // (V₁ − L)(V₂ − L), which is negative where L lies between them.
+        let least = self.det - LEAST_VARIANCE * (self.uu + self.vv - LEAST_VARIANCE);
+        let [u, v] = frame.most;
+        (least < 0.0)
+            | (self.uu + self.vv < 2.0 * LEAST_VARIANCE)
             | (self.det > limits.most_det)
-            | (2.0 * limits.radius_squared * self.det > most * most * sum)
+            | (self.uu * limits.radius_squared > u * u)
+            | (self.vv * limits.radius_squared > v * v)
     }
 
-    /// Brings the rare ellipse within bounds: not thinner than a texel, not larger than the budget,
-    /// its minor axis not reaching farther than `most` of the level.
-    pub(crate) fn mend(self, most: [f64; 2], limits: &Limits) -> Self {
-        self.floored().within_area(limits).within_level(most, limits)
-    }
-
-    /// The same with no variance along any axis below [`LEAST_VARIANCE`].
-    fn floored(self) -> Self {
-        let (x, y) = (self.uu - self.vv, 2.0 * self.uv);
+    /// Brings the rare ellipse within bounds: not reaching too far along an axis of one texel, not
+    /// larger than the budget, and above all not thinner than a texel.
+    pub(crate) fn mend(self, frame: &Frame, limits: &Limits) -> Self {
+        let s = self.within_level(frame, limits);
+        let (x, y) = (s.uu - s.vv, 2.0 * s.uv);
         let h = sqrt(x * x + y * y);
-        let v1 = 0.5 * (self.uu + self.vv + h);
-        if v1 < LEAST_VARIANCE {
-            let v = LEAST_VARIANCE;
-            return Self { uu: v, uv: 0.0, vv: v, det: v * v };
-        }
-        let v2 = self.det / v1;
-        if v2 >= LEAST_VARIANCE {
-            return self;
-        }
-        let k = if h > 0.0 { 0.5 * (LEAST_VARIANCE - v2) / h } else { 0.0 };
+        let v1 = (0.5 * (s.uu + s.vv + h)).max(LEAST_VARIANCE);
+        let v2 = (s.det / v1).max(LEAST_VARIANCE);
+        let k = sqrt((limits.most_det / (v1 * v2)).min(1.0));
+        let v2 = (v2 * k).max(LEAST_VARIANCE);
+        let v1 = v1.min(limits.most_det / v2);
+        // The same axes: [[x, y], [y, −x]]/h is the difference of the projectors onto them.
+        let (sum, part) = (0.5 * (v1 + v2), if h > 0.0 { 0.5 * (v1 - v2) / h } else { 0.0 });
+        Self { uu: sum + part * x, uv: part * y, vv: sum - part * x, det: v1 * v2 }
+    }
+
+    /// Squeezes along each axis so that the ellipse's half-width there is what the level allows.
+    fn within_level(self, frame: &Frame, limits: &Limits) -> Self {
+        let squeeze = |variance: f64, most: f64| {
+            let reach = limits.radius_squared * variance;
+            if reach > most * most { most / sqrt(reach) } else { 1.0 }
+        };
+        let (ku, kv) = (squeeze(self.uu, frame.most[0]), squeeze(self.vv, frame.most[1]));
         Self {
-            uu: self.uu + k * (h - x),
-            uv: self.uv - k * y,
-            vv: self.vv + k * (h + x),
-            det: v1 * LEAST_VARIANCE,
+            uu: self.uu * ku * ku,
+            uv: self.uv * ku * kv,
+            vv: self.vv * kv * kv,
+            det: self.det * ku * ku * kv * kv,
         }
-    }
-
-    /// Shrinks to the largest area, πR²√det, keeping the shape.
-    fn within_area(self, limits: &Limits) -> Self {
-        if self.det <= limits.most_det {
-            return self;
-        }
-        let k = sqrt(limits.most_det / self.det);
-        Self { uu: self.uu * k, uv: self.uv * k, vv: self.vv * k, det: limits.most_det }
-    }
-
-    /// Shrinks, keeping the shape, so that half the minor axis is at most the larger `most`: what
-    /// spans a level in every direction averages all of it, however much farther it reaches. A long
-    /// thin ellipse keeps its length: where a texture repeats, it crosses it again and again at
-    /// other places, and cut to one crossing it would alias.
-    fn within_level(self, most: [f64; 2], limits: &Limits) -> Self {
-        let (x, y) = (self.uu - self.vv, 2.0 * self.uv);
-        let major = 0.5 * (self.uu + self.vv + sqrt(x * x + y * y));
-        let reach = limits.radius_squared * self.det / major;
-        let most = most[0].max(most[1]);
-        if reach <= most * most {
-            return self;
-        }
-        let k = most * most / reach;
-        Self { uu: self.uu * k, uv: self.uv * k, vv: self.vv * k, det: self.det * k * k }
     }
 }

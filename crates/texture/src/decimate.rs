@@ -17,8 +17,12 @@ pub(crate) struct Taps {
     pub(crate) outputs: usize,
     /// Taps for each output.
     count: usize,
-    /// Input texel of every tap of every output, already wrapped.
-    indices: Vec<u32>,
+    /// First input texel of every output, before wrapping.
+    firsts: Vec<i32>,
+    /// What lies beyond the edge.
+    fold: Wrap,
+    /// Input texels.
+    inputs: usize,
     /// Weight of every tap of every output.
     weights: Vec<f32>,
 }
@@ -29,7 +33,14 @@ impl Taps {
         let outputs = (n / 2).max(1);
         let ratio = n as f64 / outputs as f64;
         if n == 1 {
-            return Self { outputs, count: 1, indices: vec![0], weights: vec![1.0] };
+            return Self {
+                outputs,
+                count: 1,
+                firsts: vec![0],
+                fold: Wrap::Clamp,
+                inputs: 1,
+                weights: vec![1.0],
+            };
         }
         let reach = match filter {
             Decimation::Kaiser => 2.0 * ratio,
@@ -45,9 +56,14 @@ impl Taps {
         let mut weights = Vec::with_capacity(outputs * count);
         for i in 0..outputs {
             let centre = (i as f64 + 0.5) * ratio;
-            let first = crate::math::floor(centre - reach + if even { 0.5 } else { 0.0 }) as i64;
+            let first = crate::math::floor(centre - reach + if even { 0.5 } else { 0.0 }) as i32;
             firsts.push(first);
-            weights.extend((first..first + count as i64).map(|j| match filter {
+            if even && i > 0 {
+                // An even size has one phase.
+                weights.extend_from_within(..count);
+                continue;
+            }
+            weights.extend((first..first + count as i32).map(|j| match filter {
                 Decimation::Kaiser => share * partition((j as f64 + 0.5 - centre) * 2.0 * share),
                 Decimation::Box => share * overlap(j as f64, centre - reach, centre + reach),
             }));
@@ -55,30 +71,66 @@ impl Taps {
         if filter == Decimation::Kaiser {
             balance(&mut weights, &firsts, count, ratio);
         }
-        let taps = firsts.iter().flat_map(|first| *first..*first + count as i64);
-        Self {
-            outputs,
-            count,
-            indices: taps.map(|j| fold.resolve(j, n).unwrap_or(0) as u32).collect(),
-            weights: weights.iter().map(|w| *w as f32).collect(),
+        let weights = weights.iter().map(|w| *w as f32).collect();
+        Self { outputs, count, firsts, fold, inputs: n, weights }
+    }
+
+    /// The weights of output `i`.
+    #[inline(always)]
+    fn weights(&self, i: usize) -> &[f32] {
+        &self.weights[i * self.count..(i + 1) * self.count]
+    }
+
+    /// The input texel of tap `k` of output `i`.
+    #[inline(always)]
+    fn index(&self, i: usize, k: usize) -> usize {
+        // Neither fold has an outside.
+        self.fold.resolve(self.firsts[i] + k as i32, self.inputs).unwrap_or(0)
+    }
+
+    /// Σ wₖ·tₖ of whole rows, as the middle one plus the weighted differences from it, so that equal
+    /// texels give themselves to the last bit.
+    #[inline(always)]
+    fn apply_to_rows(&self, i: usize, from: &Level, out: &mut [[f32; 4]]) {
+        let out = out.as_flattened_mut();
+        let middle_tap = self.count / 2;
+        let middle = from.row(self.index(i, middle_tap)).as_flattened();
+        out.copy_from_slice(middle);
+        for (k, w) in self.weights(i).iter().enumerate().filter(|(k, _)| *k != middle_tap) {
+            let row = from.row(self.index(i, k)).as_flattened();
+            for ((out, t), middle) in out.iter_mut().zip(row).zip(middle) {
+                *out += w * (t - middle);
+            }
         }
     }
 
-    /// Σ wᵢ·tᵢ over the taps of output `i`, as the middle texel plus the weighted differences from
-    /// it, so that equal texels give themselves to the last bit.
-    fn apply(&self, i: usize, texel: impl Fn(usize) -> [f32; 4]) -> [f32; 4] {
-        let taps = i * self.count..(i + 1) * self.count;
-        let indices = &self.indices[taps.clone()];
-        let middle = texel(indices[self.count / 2] as usize);
-        let mut sum = [0.0f32; 4];
-        for (j, w) in indices.iter().zip(&self.weights[taps]) {
-            let t = texel(*j as usize);
-            for c in 0..4 {
-                sum[c] += w * (t[c] - middle[c]);
-            }
+    /// The same along one row.
+    #[inline(always)]
+    fn apply_along(&self, from: &[[f32; 4]], out: &mut [[f32; 4]]) {
+        for (i, out) in out.iter_mut().enumerate() {
+            let weights = self.weights(i);
+            let first = usize::try_from(self.firsts[i]).ok();
+            let inside = first.and_then(|first| from.get(first..first + self.count));
+            *out = match inside {
+                Some(run) => average(weights, |k| run[k]),
+                None => average(weights, |k| from[self.index(i, k)]),
+            };
         }
-        core::array::from_fn(|c| middle[c] + sum[c])
     }
+}
+
+/// Σ wₖ·tₖ of single texels, about the middle one.
+#[inline(always)]
+fn average(weights: &[f32], texel: impl Fn(usize) -> [f32; 4]) -> [f32; 4] {
+    let middle = texel(weights.len() / 2);
+    let mut sum = middle;
+    for (k, w) in weights.iter().enumerate() {
+        let t = texel(k);
+        for c in 0..4 {
+            sum[c] += w * (t[c] - middle[c]);
+        }
+    }
+    sum
 }
 
 /// The half-band kernel at distance `d` in texels of an even-sized level: sinc(d/2) under the
@@ -108,7 +160,7 @@ fn overlap(j: f64, from: f64, to: f64) -> f64 {
 /// Makes the weights of every output sum to 1 without changing what any input gives in all, so that
 /// constants and the mean of the level are both kept: what an output lacks it takes from the next one,
 /// at the two texels beside their common edge. The amounts are below two thousandths; areas need none.
-fn balance(weights: &mut [f64], firsts: &[i64], count: usize, ratio: f64) {
+fn balance(weights: &mut [f64], firsts: &[i32], count: usize, ratio: f64) {
     for i in 0..firsts.len() {
         let taps = &mut weights[i * count..(i + 1) * count];
         let lack = 1.0 - taps.iter().sum::<f64>();
@@ -120,7 +172,7 @@ fn balance(weights: &mut [f64], firsts: &[i64], count: usize, ratio: f64) {
         let edge = (i + 1) as f64 * ratio - 0.5;
         let texel = crate::math::floor(edge);
         let fraction = edge - texel;
-        for (j, part) in [(texel as i64, 1.0 - fraction), (texel as i64 + 1, fraction)] {
+        for (j, part) in [(texel as i32, 1.0 - fraction), (texel as i32 + 1, fraction)] {
             weights[i * count + (j - firsts[i]) as usize] += lack * part;
             weights[(i + 1) * count + (j - firsts[i + 1]) as usize] -= lack * part;
         }
@@ -132,15 +184,14 @@ pub(crate) fn halve(from: &Level, filter: Decimation, wrap: Wrap) -> Result<Leve
     let columns = Taps::new(from.width, filter, wrap);
     let rows = Taps::new(from.height, filter, wrap);
     let mut to = Level::new(columns.outputs, rows.outputs)?;
-    let mut tall = Level::new(from.width, 1)?;
-    for (y, out) in to.texels.chunks_exact_mut(columns.outputs).enumerate() {
-        for (x, t) in tall.texels.iter_mut().enumerate() {
-            *t = rows.apply(y, |j| from.texels[j * from.width + x]);
-        }
-        for (x, t) in out.iter_mut().enumerate() {
-            *t = columns.apply(x, |j| tall.texels[j]);
-        }
-    }
+    to.fill_rows(
+        from.width,
+        #[inline(always)]
+        |y, tall, out| {
+            rows.apply_to_rows(y, from, tall);
+            columns.apply_along(tall, out);
+        },
+    );
     Ok(to)
 }
 
@@ -158,15 +209,17 @@ mod tests {
             assert!((taps.weights[4 + k] - tap).abs() < 1e-5);
         }
         // Output 3 covers texels 6 and 7.
-        assert_eq!(taps.indices[24..32], [3, 4, 5, 6, 7, 8, 9, 10]);
+        assert_eq!(taps.firsts[3], 3);
     }
 
     #[test]
     fn box_taps_are_areas() {
         let taps = Taps::new(5, Decimation::Box, Wrap::Clamp);
         let mut dense = [[0.0f32; 5]; 2];
-        for (k, (j, w)) in taps.indices.iter().zip(&taps.weights).enumerate() {
-            dense[k / taps.count][*j as usize] += w;
+        for (i, dense) in dense.iter_mut().enumerate() {
+            for (k, w) in taps.weights(i).iter().enumerate() {
+                dense[taps.index(i, k)] += w;
+            }
         }
         let near = |a: [f32; 5], b: [f32; 5]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);
         assert!(near(dense[0], [0.4, 0.4, 0.2, 0.0, 0.0]));
@@ -180,8 +233,10 @@ mod tests {
                 for n in (1..70).chain([255, 257, 1021, 1023]) {
                     let taps = Taps::new(n, filter, wrap);
                     let mut totals = vec![0.0f64; n];
-                    for (w, j) in taps.weights.iter().zip(&taps.indices) {
-                        totals[*j as usize] += f64::from(*w);
+                    for i in 0..taps.outputs {
+                        for (k, w) in taps.weights(i).iter().enumerate() {
+                            totals[taps.index(i, k)] += f64::from(*w);
+                        }
                     }
                     let share = taps.outputs as f64 / n as f64;
                     let worst = totals.iter().map(|t| (t - share).abs()).fold(0.0, f64::max);

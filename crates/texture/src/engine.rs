@@ -1,12 +1,23 @@
-use crate::Wrap;
 use crate::level::Level;
 use crate::walk::Walk;
+use crate::walk_simd::Scratch;
+use crate::{Texture, Wrap};
 use fearless_simd::Simd;
 
 /// The inner loops, in scalar code or in vectors: the same bits from each.
 pub(crate) trait Engine: Copy {
     /// The weighted average of the texels in an ellipse.
     fn walk(self, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4];
+
+    /// Many of them.
+    fn walk_all(self, t: &Texture, jobs: &[Job], scratch: &mut Scratch, out: &mut [[f32; 4]]);
+}
+
+/// A walk in a level.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Job {
+    pub(crate) level: usize,
+    pub(crate) walk: Walk,
 }
 
 /// The definition.
@@ -22,6 +33,12 @@ impl Engine for Scalar {
     fn walk(self, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
         crate::walk::walk(level, wrap, w)
     }
+
+    fn walk_all(self, t: &Texture, jobs: &[Job], _: &mut Scratch, out: &mut [[f32; 4]]) {
+        for (job, out) in jobs.iter().zip(out) {
+            *out = self.walk(&t.levels[job.level], t.wrap, &job.walk);
+        }
+    }
 }
 
 impl<S: Simd> Engine for Vector<S> {
@@ -32,5 +49,13 @@ impl<S: Simd> Engine for Vector<S> {
             #[inline(always)]
             || crate::walk_simd::walk(self.0, level, wrap, w),
         )
+    }
+
+    #[inline(always)]
+    fn walk_all(self, t: &Texture, jobs: &[Job], scratch: &mut Scratch, out: &mut [[f32; 4]]) {
+        self.0.vectorize(
+            #[inline(always)]
+            || crate::walk_simd::walk_all(self.0, t, jobs, scratch, out),
+        );
     }
 }

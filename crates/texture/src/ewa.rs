@@ -3,7 +3,6 @@
 use crate::covariance::Covariance;
 use crate::engine::Engine;
 use crate::lod::{self, Pick, half_octaves};
-use crate::math::{floor, floor32, sqrt32};
 use crate::point::lerp;
 use crate::walk::Walk;
 use crate::{Footprint, LevelMode, Sampler, Texture};
@@ -24,7 +23,7 @@ pub(crate) struct Limits {
     /// 1/a²: the least ratio of the variances.
     pub(crate) inverse_ratio: f64,
     /// R, and its square.
-    radius: f32,
+    pub(crate) radius: f32,
     pub(crate) radius_squared: f64,
     /// 1/s².
     pub(crate) inverse_least: f64,
@@ -72,7 +71,8 @@ impl<'a> Plan<'a> {
     #[inline(always)]
     fn new(t: &'a Texture, f: &'a Footprint, mode: LevelMode, limits: &'a Limits) -> Self {
         if mode != LevelMode::Auto {
-            let pick = lod::pick(f, mode, t.levels.len());
+            let step = f.longest_step_squared();
+            let pick = lod::pick(step, lod::detail(step), mode, t.levels.len() - 1);
             return Self { t, f, limits, pick, sigma: None };
         }
         let (sigma, minor) = Covariance::of(&f.jacobian, limits.inverse_ratio);
@@ -85,10 +85,10 @@ impl<'a> Plan<'a> {
     fn walk(&self, index: usize) -> Walk {
         let level = &self.t.levels[index];
         let sigma = match self.sigma {
-            Some(sigma) => sigma.at_level(level.scale, level.blurred),
+            Some(sigma) => sigma.at_level(&level.frame),
             None => {
                 // The footprint rescaled, as if that level were the texture.
-                let [su, sv] = level.scale;
+                let [su, sv] = level.frame.scale;
                 let Matrix2 { a, b, c, d } = self.f.jacobian;
                 let jacobian = Matrix2::new(a * su, b * su, c * sv, d * sv);
                 Covariance::of(&jacobian, self.limits.inverse_ratio).0
@@ -148,80 +148,7 @@ pub(crate) fn walk_in(
     sigma: Covariance,
     limits: &Limits,
 ) -> Walk {
-    let level = &t.levels[index];
-    let mended = if sigma.needs_mending(level.most, limits) {
-        sigma.mend(level.most, limits)
-    } else {
-        sigma
-    };
-    Outline::new(u, v, level.scale, &mended, limits).walk()
-}
-
-/// The numbers of a [`Walk`] before any of them is made whole: no branch and no integer, so that a
-/// loop over many is one of vectors.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Outline {
-    pub(crate) x0: f64,
-    pub(crate) y0: f64,
-    pub(crate) fx: f32,
-    pub(crate) fy: f32,
-    pub(crate) first: f32,
-    pub(crate) rise: f32,
-    pub(crate) run: f32,
-    pub(crate) slope: f32,
-    pub(crate) row_scale: f32,
-    pub(crate) run_scale: f32,
-    pub(crate) cut: f32,
-}
-
-impl Outline {
-    /// The outline of the ellipse about (u, v), in texels of level 0, in a level of that scale.
-    #[inline(always)]
-    pub(crate) fn new(
-        u: f64,
-        v: f64,
-        scale: [f64; 2],
-        sigma: &Covariance,
-        limits: &Limits,
-    ) -> Self {
-        // Index space: texel centres at whole numbers.
-        let (u, v) = (u * scale[0] - 0.5, v * scale[1] - 0.5);
-        let (x0, y0) = (floor(u), floor(v));
-        let (fx, fy) = ((u - x0) as f32, (v - y0) as f32);
-        let (uv, vv, det) = (sigma.uv as f32, sigma.vv as f32, sigma.det as f32);
-        let inverse_vv = 1.0 / vv;
-        // Half-widths: R√Σvv over the rows, R√(det/Σvv) along any one row.
-        let rise = limits.radius * sqrt32(vv);
-        Self {
-            x0,
-            y0,
-            fx,
-            fy,
-            first: -floor32(rise - fy),
-            rise,
-            run: limits.radius * sqrt32(det * inverse_vv),
-            slope: uv * inverse_vv,
-            row_scale: 0.5 * inverse_vv,
-            run_scale: 0.5 * (vv / det),
-            cut: limits.cut,
-        }
-    }
-
-    /// With whole numbers where the walk needs them.
-    #[inline(always)]
-    pub(crate) fn walk(&self) -> Walk {
-        Walk {
-            x0: self.x0 as i64,
-            y0: self.y0 as i64,
-            fx: self.fx,
-            fy: self.fy,
-            first: self.first as i32,
-            rise: self.rise,
-            run: self.run,
-            slope: self.slope,
-            row_scale: self.row_scale,
-            run_scale: self.run_scale,
-            cut: self.cut,
-        }
-    }
+    let frame = &t.levels[index].frame;
+    let mended = if sigma.needs_mending(frame, limits) { sigma.mend(frame, limits) } else { sigma };
+    Walk::new(u, v, frame, &mended, limits)
 }

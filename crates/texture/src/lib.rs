@@ -22,10 +22,10 @@
 //! counts, and [`Sampler::max_eccentricity`] bounds that. After Heckbert (1989), with the variance of
 //! the pyramid's own blur subtracted.
 //!
-//! A sample reads at most π·R²·4s²·a texels (R the radius, s the least σ, a the largest axis ratio)
-//! or 16,384, whichever is more; rows are read in whole groups of 8, so count twice that. Where no
-//! coarser level can bring an ellipse within that (level zero asked for; no pyramid), it is shrunk to
-//! it.
+//! An ellipse holds at most π·R²·4s²·a texels (R the radius, s the least σ, a the largest axis ratio)
+//! or 16,384, whichever is more. It is read in blocks of 4×4, so count up to five times that for the
+//! thinnest, and the same again where two levels blend. Where no coarser level can bring an ellipse
+//! within that (level zero asked for; no pyramid), it is shrunk to it, and aliases.
 //!
 //! # Example
 //!
@@ -63,7 +63,6 @@ mod point;
 pub mod reference;
 mod sampler;
 mod simd;
-mod srgb;
 mod texture;
 mod walk;
 mod walk_simd;

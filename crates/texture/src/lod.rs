@@ -1,7 +1,7 @@
 //! Which levels are read when the level does not come from the ellipse.
 
+use crate::LevelMode;
 use crate::math::log2;
-use crate::{Footprint, LevelMode};
 
 /// One or two neighbouring levels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -12,32 +12,27 @@ pub(crate) struct Pick {
     pub(crate) coarser: f32,
 }
 
-/// The levels for a footprint, of `count` that there are. D = log₂ of the longest step, clamped;
-/// a step that is not finite goes to the coarsest level. [`LevelMode::Auto`] does not come here.
+/// D = log₂ of the longest step, from its square; 0 for a step of at most one texel, and anything for
+/// one that is not finite. No branch: a loop over many is one of vectors.
 #[inline(always)]
-pub(crate) fn pick(f: &Footprint, mode: LevelMode, count: usize) -> Pick {
-    let last = count - 1;
-    let only = |level| Pick { level, coarser: 0.0 };
-    if mode == LevelMode::Zero {
-        return only(0);
-    }
-    let step = f.longest_step_squared();
-    if !step.is_finite() {
-        return only(last);
-    }
-    match mode {
+pub(crate) fn detail(step: f64) -> f64 {
+    let d = 0.5 * log2(step);
+    if step > 1.0 { d } else { 0.0 }
+}
+
+/// The levels for a squared step and its [`detail`] (for [`LevelMode::Linear`] alone), up to the level
+/// `last`, where a step that is not finite goes, too. [`LevelMode::Auto`] does not come here.
+#[inline(always)]
+pub(crate) fn pick(step: f64, detail: f64, mode: LevelMode, last: usize) -> Pick {
+    let level = match mode {
+        LevelMode::Zero => 0,
+        _ if !step.is_finite() => last,
         // D ≥ k + ½ means that the squared step is at least 2·4ᵏ: exact, without a logarithm.
-        LevelMode::Nearest => only(half_octaves(2.0 * step).min(last)),
-        _ if step <= 1.0 => only(0),
-        _ => {
-            let d = 0.5 * log2(step);
-            let level = d as usize;
-            if level >= last {
-                return only(last);
-            }
-            Pick { level, coarser: (d - level as f64) as f32 }
-        }
-    }
+        LevelMode::Nearest => half_octaves(2.0 * step).min(last),
+        _ => (detail as usize).min(last),
+    };
+    let blends = mode == LevelMode::Linear && level < last;
+    Pick { level, coarser: if blends { (detail - level as f64) as f32 } else { 0.0 } }
 }
 
 /// max(0, ⌊log₄ x⌋) of a finite x ≥ 0, from the exponent's bits.
@@ -49,25 +44,19 @@ pub(crate) fn half_octaves(x: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scumble_geometry::Matrix2;
-
-    fn step(length: f64) -> Footprint {
-        let jacobian = Matrix2::new(0.0, length, 0.1, 0.0);
-        Footprint { u: 0.0, v: 0.0, jacobian }
-    }
-
     #[test]
     fn levels_follow_the_longest_step() {
-        let near = |length| pick(&step(length), LevelMode::Nearest, 6).level;
+        let pick = |length: f64, mode| pick(length * length, detail(length * length), mode, 5);
+        let near = |length| pick(length, LevelMode::Nearest).level;
         assert_eq!([0.0, 1.0, 1.41, 1.42, 2.0, 2.82, 2.83].map(near), [0, 0, 0, 1, 1, 1, 2]);
         assert_eq!([1e30, f64::INFINITY, f64::NAN].map(near), [5, 5, 5]);
-        let linear = |length| pick(&step(length), LevelMode::Linear, 6);
+        let linear = |length| pick(length, LevelMode::Linear);
         assert_eq!(linear(0.5), Pick { level: 0, coarser: 0.0 });
         assert_eq!(linear(4.0), Pick { level: 2, coarser: 0.0 });
         assert_eq!(linear(6.0).level, 2);
         assert!((linear(6.0).coarser - 0.584_962_5).abs() < 1e-6);
         assert_eq!(linear(1e9), Pick { level: 5, coarser: 0.0 });
         assert_eq!(linear(f64::NAN), Pick { level: 5, coarser: 0.0 });
-        assert_eq!(pick(&step(1e9), LevelMode::Zero, 6), Pick { level: 0, coarser: 0.0 });
+        assert_eq!(pick(1e9, LevelMode::Zero), Pick { level: 0, coarser: 0.0 });
     }
 }

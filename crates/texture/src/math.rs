@@ -91,19 +91,6 @@ pub(crate) fn bessel_i0(q: f64) -> f64 {
     })
 }
 
-/// The fifth root of x in [0, 1], by Newton's method from above.
-pub(crate) fn fifth_root(x: f64) -> f64 {
-    if x <= 0.0 {
-        return 0.0;
-    }
-    let mut y = 1.0;
-    for _ in 0..64 {
-        let y4 = y * y * y * y;
-        y -= (y * y4 - x) / (5.0 * y4);
-    }
-    y
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -117,15 +104,11 @@ mod tests {
             if x < 6.2 {
                 assert!((sinc(x) - x.sin() / x).abs() < 1e-12, "sinc {x}");
             }
-            if x <= 1.0 {
-                assert!((fifth_root(x) - x.powf(0.2)).abs() < 1e-14, "root {x}");
-            }
         }
         assert_eq!(log2(8.0), 3.0);
         assert_eq!(exp(0.0), 1.0);
         assert_eq!(exp(-1e9), 0.0);
         assert_eq!(sinc(0.0), 1.0);
-        assert_eq!(fifth_root(0.0), 0.0);
         // I0(4), Abramowitz and Stegun, table 9.8.
         assert!((bessel_i0(4.0) - 11.301_921_952_136_33).abs() < 1e-12);
     }

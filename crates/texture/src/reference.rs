@@ -123,7 +123,7 @@ fn bilinear(texture: &Texture, p: DVec2) -> Option<[f64; 4]> {
     let (x, y) = (x.bring(p.x) - 0.5, y.bring(p.y) - 0.5);
     let (x0, y0) = (floor(x), floor(y));
     let (fx, fy) = (x - x0, y - y0);
-    let texel = |i, j| level.texel(x0 as i64 + i, y0 as i64 + j, wrap).map(f64::from);
+    let texel = |i, j| level.texel(x0 as i32 + i, y0 as i32 + j, wrap).map(f64::from);
     let (a, b, c, d) = (texel(0, 0), texel(1, 0), texel(0, 1), texel(1, 1));
     Some(core::array::from_fn(|k| {
         let (top, bottom) = (a[k] + (b[k] - a[k]) * fx, c[k] + (d[k] - c[k]) * fx);

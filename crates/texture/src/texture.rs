@@ -2,9 +2,8 @@ use crate::batch;
 use crate::decimate::halve;
 use crate::engine::{Engine, Scalar, Vector};
 use crate::ewa::{self, Limits};
-use crate::level::Level;
-use crate::point::{bilinear, lerp, nearest};
-use crate::srgb::decode_table;
+use crate::level::{LARGEST, Level, stride};
+use crate::point::{self, bilinear, nearest};
 use crate::wrap::Nearer;
 use crate::{
     Footprint, LevelMode, Levels, PixelFilter, Sampler, Simd, TextureError, TextureOptions, Wrap,
@@ -13,6 +12,7 @@ use crate::{
 use alloc::vec::Vec;
 use fearless_simd::dispatch;
 use scumble_geometry::{DVec2, Homography};
+use scumble_pixel::srgb::decode8;
 use scumble_pixel::{ImageView, Premul, WorkingSpace};
 
 /// An image made ready to be filtered: its pyramid, premultiplied, in the working space.
@@ -48,7 +48,6 @@ impl Texture {
         }
         let mut levels = Vec::with_capacity(count(width, height, options.levels));
         let base = decode(image, options.space)?;
-        let mut average = mean(&base);
         levels.push(base);
         while let Some(last) = levels.last()
             && levels.len() < count(width, height, options.levels)
@@ -56,9 +55,10 @@ impl Texture {
             let next = halve(last, options.decimation, options.wrap)?;
             levels.push(next.over([width, height], options.decimation.variance()));
         }
-        if let [.., Level { width: 1, height: 1, texels, .. }] = &levels[..] {
-            average = texels[0];
-        }
+        let average = match &levels[..] {
+            [.., Level { width: 1, height: 1, texels, .. }] => texels[0],
+            _ => mean(&levels[0]),
+        };
         let TextureOptions { space, wrap, .. } = *options;
         let nearer = [Nearer::new(wrap, width), Nearer::new(wrap, height)];
         Ok(Self { levels, wrap, space, average, nearer, simd: Simd::best() })
@@ -101,7 +101,7 @@ impl Texture {
     #[must_use]
     pub fn level(&self, index: usize) -> Option<ImageView<'_, [f32; 4]>> {
         let level = self.levels.get(index)?;
-        ImageView::new(level.width, level.height, level.width, &level.texels).ok()
+        ImageView::new(level.width, level.height, level.stride, &level.texels).ok()
     }
 
     /// Bytes of texels that this texture holds.
@@ -110,12 +110,16 @@ impl Texture {
         self.levels.iter().map(|l| size_of_val(&l.texels[..])).sum()
     }
 
-    /// Bytes of texels that a texture of this size will hold; `None` if that overflows.
+    /// Bytes of texels that a texture of this size will hold; `None` if that overflows or a
+    /// side is above 2²⁹.
     #[must_use]
     pub fn memory_for(width: usize, height: usize, options: &TextureOptions) -> Option<usize> {
+        if width.max(height) > LARGEST {
+            return None;
+        }
         let mut bytes = 0usize;
         for l in 0..count(width, height, options.levels) {
-            let texels = (width >> l).max(1).checked_mul((height >> l).max(1))?;
+            let texels = stride((width >> l).max(1)).checked_mul((height >> l).max(1))?;
             bytes = bytes.checked_add(texels.checked_mul(size_of::<[f32; 4]>())?)?;
         }
         isize::try_from(bytes).ok().map(isize::unsigned_abs)
@@ -166,43 +170,23 @@ impl Texture {
         s: &Sampler,
         out: &mut [Premul],
     ) {
+        match s.pixel {
+            PixelFilter::Nearest => return point::fill(self, at, point_mode(s), nearest, out),
+            PixelFilter::Bilinear => return point::fill(self, at, point_mode(s), bilinear, out),
+            PixelFilter::Ewa => (),
+        }
         let limits = Limits::new(s);
-        if s.pixel == PixelFilter::Ewa && s.level == LevelMode::Auto {
+        if s.level == LevelMode::Auto && out.len() >= batch::WORTH {
             return batch::fill(self, engine, at, &limits, out);
         }
         for (i, out) in out.iter_mut().enumerate() {
-            *out = self.sample_one(engine, &at(i), s, &limits);
+            let f = self.nearer(&at(i));
+            *out = if f.is_finite() && f.is_bounded() {
+                into_range(ewa::sample(self, engine, &f, s.level, &limits))
+            } else {
+                self.average()
+            };
         }
-    }
-
-    #[inline(always)]
-    fn sample_one(
-        &self,
-        engine: impl Engine,
-        f: &Footprint,
-        s: &Sampler,
-        limits: &Limits,
-    ) -> Premul {
-        let f = self.nearer(f);
-        if !f.is_finite() {
-            return self.average();
-        }
-        into_range(match s.pixel {
-            PixelFilter::Nearest => self.blend_levels(
-                &f,
-                s,
-                #[inline(always)]
-                |l, u, v| nearest(&self.levels[l], self.wrap, u, v),
-            ),
-            PixelFilter::Bilinear => self.blend_levels(
-                &f,
-                s,
-                #[inline(always)]
-                |l, u, v| bilinear(&self.levels[l], self.wrap, u, v),
-            ),
-            PixelFilter::Ewa if !f.is_bounded() => self.average,
-            PixelFilter::Ewa => ewa::sample(self, engine, &f, s.level, limits),
-        })
     }
 
     /// How many texels [`Texture::sample`] reads for a footprint, those of weight 0 included.
@@ -218,7 +202,9 @@ impl Texture {
             PixelFilter::Ewa if !f.is_bounded() => return 0,
             PixelFilter::Ewa => return ewa::cost(self, &f, s.level, &Limits::new(s)),
         };
-        let two = lod::pick(&f, point_mode(s), self.levels.len()).coarser > 0.0;
+        let step = f.longest_step_squared();
+        let pick = lod::pick(step, lod::detail(step), point_mode(s), self.levels.len() - 1);
+        let two = pick.coarser > 0.0;
         if two { 2 * each } else { each }
     }
 
@@ -234,24 +220,6 @@ impl Texture {
     /// What stands for a footprint that reaches infinitely far.
     pub(crate) fn average(&self) -> Premul {
         into_range(self.average)
-    }
-
-    /// One level, or two of them blended; `filter` gets the level and the centre in its texels.
-    #[inline(always)]
-    fn blend_levels(
-        &self,
-        f: &Footprint,
-        s: &Sampler,
-        filter: impl Fn(usize, f64, f64) -> [f32; 4],
-    ) -> [f32; 4] {
-        let pick = lod::pick(f, point_mode(s), self.levels.len());
-        let [su, sv] = self.levels[pick.level].scale;
-        let fine = filter(pick.level, f.u * su, f.v * sv);
-        if pick.coarser == 0.0 {
-            return fine;
-        }
-        let [su, sv] = self.levels[pick.level + 1].scale;
-        lerp(fine, filter(pick.level + 1, f.u * su, f.v * sv), pick.coarser)
     }
 }
 
@@ -274,15 +242,22 @@ fn count(width: usize, height: usize, levels: Levels) -> usize {
 
 /// Level 0: bytes to the working space, alpha multiplied in.
 fn decode(image: ImageView<'_, [u8; 4]>, space: WorkingSpace) -> Result<Level, TextureError> {
-    let table = decode_table(space);
+    let table: [f32; 256] = core::array::from_fn(|code| match space {
+        WorkingSpace::Srgb => code as f32 / 255.0,
+        WorkingSpace::Linear => decode8(code as u8),
+    });
     let mut base = Level::new(image.width(), image.height())?;
-    for (y, out) in base.texels.chunks_exact_mut(image.width()).enumerate() {
-        for (t, &[r, g, b, a]) in out.iter_mut().zip(image.row(y)) {
-            let alpha = f32::from(a) / 255.0;
-            let [r, g, b] = [r, g, b].map(|v| table[usize::from(v)] * alpha);
-            *t = [r, g, b, alpha];
-        }
-    }
+    base.fill_rows(
+        0,
+        #[inline(always)]
+        |y, _, out| {
+            for (t, &[r, g, b, a]) in out.iter_mut().zip(image.row(y)) {
+                let alpha = f32::from(a) / 255.0;
+                let [r, g, b] = [r, g, b].map(|v| table[usize::from(v)] * alpha);
+                *t = [r, g, b, alpha];
+            }
+        },
+    );
     Ok(base)
 }
 
@@ -290,18 +265,21 @@ fn decode(image: ImageView<'_, [u8; 4]>, space: WorkingSpace) -> Result<Level, T
 fn mean(level: &Level) -> [f32; 4] {
     let first = level.texels[0];
     let mut sum = [0.0f64; 4];
-    for t in &level.texels {
+    for t in (0..level.height).flat_map(|y| level.row(y)) {
         for c in 0..4 {
             sum[c] += f64::from(t[c] - first[c]);
         }
     }
-    let n = level.texels.len() as f64;
+    let n = level.width as f64 * level.height as f64;
     core::array::from_fn(|c| first[c] + (sum[c] / n) as f32)
 }
 
 /// Takes off what a sharp pyramid overshoots: alpha to 0…1, colour to 0…alpha.
 #[inline(always)]
 pub(crate) fn into_range([r, g, b, a]: [f32; 4]) -> Premul {
-    let a = a.clamp(0.0, 1.0);
-    Premul([r.clamp(0.0, a), g.clamp(0.0, a), b.clamp(0.0, a), a])
+    // Comparisons in this form are one instruction each.
+    let positive = |v: f32| if v > 0.0 { v } else { 0.0 };
+    let below = |v: f32, most: f32| if v < most { v } else { most };
+    let a = below(positive(a), 1.0);
+    Premul([below(positive(r), a), below(positive(g), a), below(positive(b), a), a])
 }

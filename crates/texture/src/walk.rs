@@ -2,9 +2,11 @@
 //! scalar code; `walk_simd` is the same in vectors.
 
 use crate::Wrap;
+use crate::covariance::Covariance;
+use crate::ewa::Limits;
 use crate::gaussian::gaussian;
-use crate::level::Level;
-use crate::math::floor32;
+use crate::level::{Frame, Level};
+use crate::math::{floor, floor32, sqrt32};
 
 /// Rows walked together, and texels of each: the sums are taken in lanes of this logical shape and
 /// folded in a fixed order, whatever the width of the machine's vectors. Four texels are one vector of
@@ -16,19 +18,23 @@ pub(crate) const LANES: usize = 4;
 /// Texel (x0 + i, y0 + j) lies at dv = j − fy below the centre; the ellipse's middle in its row is at
 /// fx + slope·dv from x0, and with dx the distance from there the Gaussian's exponent is
 /// e = row_scale·dv² + run_scale·dx². Both terms are positive, so nothing cancels.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Walk {
     /// The whole part of the centre, in index space.
-    pub(crate) x0: i64,
-    pub(crate) y0: i64,
+    pub(crate) x0: i32,
+    pub(crate) y0: i32,
     /// The rest of the centre, in [0, 1].
     pub(crate) fx: f32,
     pub(crate) fy: f32,
     /// First row, relative to y0.
     pub(crate) first: i32,
-    /// Half the ellipse's height.
-    pub(crate) rise: f32,
-    /// Half the ellipse's width along its widest row (any row through its centre).
+    /// Blocks of [`LANES`] rows, and groups of as many texels that cover the widest row. Weights
+    /// outside the ellipse are 0, and a fixed count is cheaper than exact ends: it depends on the
+    /// ellipse but not on where in a texel its centre lies, so neighbouring pixels agree on it and
+    /// the processor can predict it.
+    pub(crate) blocks: i32,
+    pub(crate) groups: i32,
+    /// Half the ellipse's width along any row through its centre.
     pub(crate) run: f32,
     /// Σuv/Σvv: how the middle moves from row to row.
     pub(crate) slope: f32,
@@ -38,67 +44,83 @@ pub(crate) struct Walk {
     pub(crate) run_scale: f32,
     /// Weights with e above this are 0: ½R².
     pub(crate) cut: f32,
+    /// 1 if every texel of the walk lies inside the level, else 0.
+    pub(crate) inside: i32,
 }
 
 impl Walk {
-    /// Groups of [`LANES`] texels that cover the widest row; every row reads as many. Weights
-    /// outside the ellipse are 0, and a fixed count is cheaper than exact ends: it depends on the
-    /// ellipse but not on where in a texel its centre lies, so neighbouring pixels agree on it and
-    /// the processor can predict it.
+    /// The walk over the ellipse about (u, v), in texels of level 0, in a level.
+    ///
+    /// No branch and no call: a loop over many is one of vectors.
     #[inline(always)]
-    pub(crate) fn groups(&self) -> usize {
-        groups(self.run)
+    pub(crate) fn new(u: f64, v: f64, frame: &Frame, sigma: &Covariance, limits: &Limits) -> Self {
+        // Index space: texel centres at whole numbers.
+        let (u, v) = (u * frame.scale[0] - 0.5, v * frame.scale[1] - 0.5);
+        let (x0, y0) = (floor(u), floor(v));
+        let (fx, fy) = ((u - x0) as f32, (v - y0) as f32);
+        let (uv, vv, det) = (sigma.uv as f32, sigma.vv as f32, sigma.det as f32);
+        let inverse_vv = 1.0 / vv;
+        let slope = uv * inverse_vv;
+        // Half-widths: R√Σvv over the rows, R√(det/Σvv) along any one row.
+        let rise = limits.radius * sqrt32(vv);
+        let run = limits.radius * sqrt32(det * inverse_vv);
+        // An interval of half-width h holds at most ⌊2h⌋ + 1 whole numbers: ⌊h/2⌋ + 1 groups of 4.
+        let blocks = floor32(0.5 * rise) + 1.0;
+        let groups = floor32(0.5 * run) + 1.0;
+        // The middle moves evenly from row to row, so the first and the last reach farthest: these
+        // are the numbers of the walk itself, which only grow or only fall with the row.
+        let first = -floor32(rise - fy);
+        let last = first + (4.0 * blocks - 1.0);
+        let start = |j: f32| floor32((fx + slope * (j - fy)) - run) + 1.0;
+        let (a, b) = (start(first), start(last));
+        let (left, right) = (a.min(b), a.max(b) + 4.0 * groups);
+        let inside = (x0 + f64::from(left) >= 0.0)
+            & (x0 + f64::from(right) <= frame.size[0])
+            & (y0 + f64::from(first) >= 0.0)
+            & (y0 + f64::from(last) < frame.size[1]);
+        Self {
+            x0: x0 as i32,
+            y0: y0 as i32,
+            fx,
+            fy,
+            first: first as i32,
+            blocks: blocks as i32,
+            groups: groups as i32,
+            run,
+            slope,
+            row_scale: 0.5 * inverse_vv,
+            run_scale: 0.5 * (vv / det),
+            cut: limits.cut,
+            inside: i32::from(inside),
+        }
     }
 
-    /// Blocks of [`LANES`] rows, by the same reasoning.
+    /// Blocks times groups of a walk inside its level; 0 if it is not.
     #[inline(always)]
-    pub(crate) fn blocks(&self) -> usize {
-        groups(self.rise)
+    pub(crate) fn pieces(&self) -> usize {
+        (self.blocks * self.groups * self.inside) as usize
     }
 
     /// Texels that the walk reads.
     pub(crate) fn texels(&self) -> usize {
-        self.blocks() * self.groups() * LANES * LANES
+        self.blocks as usize * self.groups as usize * LANES * LANES
     }
 
     /// The texel nearest to the centre. What is summed is the difference from it, so that a
     /// constant texture comes out exact to the last bit.
     #[inline(always)]
     pub(crate) fn centre(&self, level: &Level, wrap: Wrap) -> [f32; 4] {
-        let right = i64::from(self.fx >= 0.5);
-        let below = i64::from(self.fy >= 0.5);
+        let right = i32::from(self.fx >= 0.5);
+        let below = i32::from(self.fy >= 0.5);
         level.texel(self.x0 + right, self.y0 + below, wrap)
-    }
-
-    /// Whether every texel of the walk lies inside the level.
-    ///
-    /// The middle of the ellipse moves evenly from row to row, so the first and the last row reach
-    /// farthest; the same numbers as in the walk, which only grow or only fall with the row.
-    #[inline(always)]
-    pub(crate) fn is_inside(&self, level: &Level) -> bool {
-        let start = |j: i32| {
-            let middle = self.fx + self.slope * (j as f32 - self.fy);
-            self.x0 + (floor32(middle - self.run) + 1.0) as i64
-        };
-        let last = self.first + (self.blocks() * LANES) as i32 - 1;
-        let (a, b) = (start(self.first), start(last));
-        let end = a.max(b) + (self.groups() * LANES) as i64;
-        let (top, bottom) = (self.y0 + i64::from(self.first), self.y0 + i64::from(last));
-        (a.min(b) >= 0) & (end <= level.width as i64) & (top >= 0) & (bottom < level.height as i64)
     }
 
     /// Row `j` of the walk, as far as it can be found in the level.
     #[inline(always)]
     pub(crate) fn row<'a>(&self, j: i32, level: &'a Level, wrap: Wrap) -> Row<'a> {
-        let y = wrap.resolve(self.y0 + i64::from(j), level.height);
+        let y = wrap.resolve(self.y0 + j, level.height);
         Row { texels: y.map(|y| level.row(y)), wrap }
     }
-}
-
-/// How many groups of [`LANES`] hold every whole number in any interval of that half-width.
-#[inline(always)]
-fn groups(half: f32) -> usize {
-    (floor32(2.0 * half) as usize + 1).div_ceil(LANES)
 }
 
 /// A row of a level, or of the constant outside it.
@@ -112,7 +134,7 @@ impl Row<'_> {
     /// Calls `f` with the [`LANES`] texels from column `x`: in place where they lie inside,
     /// collected where they do not.
     #[inline(always)]
-    pub(crate) fn with_run<R>(&self, x: i64, f: impl FnOnce(&[[f32; 4]; LANES]) -> R) -> R {
+    pub(crate) fn with_run<R>(&self, x: i32, f: impl FnOnce(&[[f32; 4]; LANES]) -> R) -> R {
         let inside = self.texels.and_then(|row| row.get(usize::try_from(x).ok()?..)?.first_chunk());
         match inside {
             Some(run) => f(run),
@@ -122,11 +144,11 @@ impl Row<'_> {
 
     #[cold]
     #[inline(never)]
-    fn collect(&self, x: i64) -> [[f32; 4]; LANES] {
+    fn collect(&self, x: i32) -> [[f32; 4]; LANES] {
         core::array::from_fn(|i| {
             let found = self
                 .texels
-                .and_then(|row| self.wrap.resolve(x + i as i64, row.len()).map(|x| row[x]));
+                .and_then(|row| self.wrap.resolve(x + i as i32, row.len()).map(|x| row[x]));
             found.unwrap_or_else(|| self.wrap.border())
         })
     }
@@ -140,18 +162,18 @@ pub(crate) fn walk(level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
     let centre = w.centre(level, wrap);
     let mut sums = [[0.0f32; 4]; LANES];
     let mut weights = [[0.0f32; LANES]; LANES];
-    for block in 0..w.blocks() {
-        for k in 0..w.groups() {
+    for block in 0..w.blocks {
+        for k in 0..w.groups {
             for (r, totals) in weights.iter_mut().enumerate() {
-                let j = w.first + (block * LANES + r) as i32;
+                let j = w.first + block * LANES as i32 + r as i32;
                 let dv = j as f32 - w.fy;
                 let e = w.row_scale * (dv * dv);
                 let middle = w.fx + w.slope * dv;
                 let start = floor32(middle - w.run) + 1.0;
-                let x = w.x0 + start as i64 + (k * LANES) as i64;
+                let x = w.x0 + start as i32 + k * LANES as i32;
                 let run = w.row(j, level, wrap).with_run(x, |run| *run);
                 for i in 0..LANES {
-                    let dx = (start + (k * LANES + i) as f32) - middle;
+                    let dx = (start + (k * LANES as i32 + i as i32) as f32) - middle;
                     let weight = weigh(e + w.run_scale * (dx * dx), w);
                     totals[i] += weight;
                     for c in 0..4 {

@@ -15,15 +15,14 @@ pub enum Wrap {
 }
 
 /// Positions farther out than this many texels are brought back to it (clamp and constant), and a
-/// Jacobian with a larger component counts as infinite. Far beyond any texture, and still exact to
-/// a few thousandths of a texel in `f64`.
-pub(crate) const FAR: f64 = 1_099_511_627_776.0;
+/// Jacobian with a larger component counts as infinite. Twice the side of the largest texture.
+pub(crate) const FAR: f64 = 1_073_741_824.0;
 
 impl Wrap {
     /// The texel that stands at index `i` of an axis with `n` texels; `None` for the constant.
     #[inline(always)]
-    pub(crate) fn resolve(self, i: i64, n: usize) -> Option<usize> {
-        let size = n as i64;
+    pub(crate) fn resolve(self, i: i32, n: usize) -> Option<usize> {
+        let size = n as i32;
         if (0..size).contains(&i) {
             return Some(i as usize);
         }
@@ -31,6 +30,7 @@ impl Wrap {
             Self::Clamp => Some(i.clamp(0, size - 1) as usize),
             Self::Repeat => Some(i.rem_euclid(size) as usize),
             Self::Mirror => {
+                // Sizes are below 2²⁹.
                 let k = i.rem_euclid(2 * size);
                 Some(k.min(2 * size - 1 - k) as usize)
             }
@@ -75,7 +75,7 @@ impl Nearer {
             // The bounds catch the last bit of the product, and positions of 2⁵² periods and more.
             (u - self.period * crate::math::floor(u * self.inverse)).max(0.0).min(self.period)
         } else {
-            u.max(-FAR).min(FAR)
+            u.clamp(-FAR, FAR)
         }
     }
 }

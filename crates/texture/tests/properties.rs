@@ -71,8 +71,7 @@ proptest! {
         let Premul([r, g, b, a]) = t.sample(&f, &sampler);
         prop_assert!((0.0..=1.0).contains(&a));
         prop_assert!([r, g, b].iter().all(|v| (0.0..=a).contains(v)));
-        // Twice the budget for rows in whole groups and two levels, and the edges of small ones.
-        prop_assert!(t.cost(&f, &sampler) <= 4 * 16_384);
+        prop_assert!(t.cost(&f, &sampler) <= 2 * (5 * 16_384 + 64));
     }
 
     #[test]

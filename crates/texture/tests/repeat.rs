@@ -1,12 +1,15 @@
 //! Textures that repeat, seen from afar at a slant.
 
+#![allow(clippy::unwrap_used, reason = "a test helper may fail its test")]
+
 use scumble_geometry::Matrix2;
 use scumble_pixel::Image;
 use scumble_texture::{Footprint, Sampler, Texture, TextureOptions, Wrap};
 
 /// Two by two squares of eight texels, which repeat to a checkerboard without end.
 fn checker() -> Texture {
-    let texel = |i: usize| if (i / 8 + i / 128) % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] };
+    let texel =
+        |i: usize| if (i / 8 + i / 128).is_multiple_of(2) { [255; 4] } else { [0, 0, 0, 255] };
     let image = Image::from_vec(16, 16, (0..256).map(texel).collect()).unwrap();
     let options = TextureOptions { wrap: Wrap::Repeat, ..TextureOptions::default() };
     Texture::new(image.view(), &options).unwrap()

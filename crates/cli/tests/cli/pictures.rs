@@ -47,6 +47,14 @@ fn sizes_are_followed() {
 }
 
 #[test]
+fn a_size_between_pixels_blurs_nothing() {
+    let desk = Desk::with("a.svg", SQUARE.replacen("10", "10.5", 1));
+    let picture = Picture::decode(&desk.run("render a.svg -").succeeded().out);
+    assert_eq!((picture.width, picture.height), (11, 8));
+    assert_eq!([1, 2, 5, 6].map(|x| picture.at(x, 1)), [WHITE, RED, RED, WHITE]);
+}
+
+#[test]
 fn a_crop_is_that_part_of_the_whole() {
     let desk = Desk::with("a.svg", SHAPES);
     let render = |arguments: &str| {
