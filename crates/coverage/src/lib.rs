@@ -54,11 +54,13 @@
 //!   mesh share out the samples inside it without gap or overlap, and a polygon owns the same
 //!   samples as all triangles of any triangulation of it on the 1/256 grid.
 //! - **Clips do not matter.** The samples found in a tile are those of the whole picture there, and
-//!   so are the bits of every area.
+//!   so are the bits of every area, save where a polygon crosses itself within 2⁻²⁴ of a pixel of a
+//!   corner's height.
 //! - **Areas add up.** The area of a pixel is right to 10⁻⁶ for the snapped shape, overlaps and
-//!   self-intersections included, and the areas of a mesh sum to that of its outline. (One limit:
-//!   from 8192 edges in a single row of pixels on, their heights are rounded to 1/128 pixel, then
-//!   coarser.)
+//!   self-intersections included, and the areas of a mesh sum to that of its outline. One limit: in
+//!   a polygon's row of pixels with 8192 edges or more, heights are rounded to 1/128 pixel and
+//!   coarser; and of n edges that cross in a row more than 65536/n times, the rest of the
+//!   crossings are placed roughly. Such rows may differ a little from clip to clip.
 //! - **Every machine alike.** All instruction sets give the same calls with the same numbers;
 //!   [`Scratch::with_level`] picks one.
 //! - **Any finite input.** Degenerate, huge, self-crossing: right, in a time that depends on the

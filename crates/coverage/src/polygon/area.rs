@@ -19,7 +19,7 @@ const ROW_CELLS: i32 = 1 << 15;
 
 /// With more edges than this in one row of pixels, the heights where they begin and end are rounded
 /// to a power of two times 1/256 pixel, so that the work in a row stays within edges × log(edges).
-/// The area of such a crowded row is then off by no more than the shapes' width times that.
+/// Each edge's part in such a crowded row is then off by no more than that height.
 const CROWD: usize = 4096;
 
 /// Strips per row that crossings may add, times edges. Beyond it edges that cross inside a strip
