@@ -1,5 +1,5 @@
-//! The visiting orders as pictures: the pixels of a triangle from first (dark) to last (light), and the path between
-//! them.
+//! The visiting orders as pictures: the pixels of a triangle from first (dark) to last (light), and
+//! the path between them.
 //!
 //! `cargo run --release -p scumble-coverage --example order [OUT.png]`
 

@@ -1,5 +1,5 @@
-//! A renderer of one's own on top of the crate: a turning cube with a checkered texture, a depth test per sample and
-//! perspective-correct interpolation, six turns side by side.
+//! A renderer of one's own on top of the crate: a turning cube with a checkered texture, a depth
+//! test per sample and perspective-correct interpolation, six turns side by side.
 //!
 //! `cargo run --release -p scumble-coverage --example zbuffer [OUT.png]`
 

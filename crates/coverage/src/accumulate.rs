@@ -1,10 +1,11 @@
 //! Exact area: what part of each pixel of a row lies right of an edge, summed over edges.
 //!
-//! An edge that runs down from height y₁ to y₂ through a row leaves ∫ clamp(c + 1 − x(t), 0, 1) dt of
-//! pixel c on its right. Inside the pixels that it touches this is a trapezoid; further right it is
-//! y₂ − y₁, further left nothing. Each trapezoid is computed in f64 from the edge, the row and the
-//! pixel alone, rounded to 2⁻³², and summed in whole numbers. So the sum depends neither on the order of
-//! the edges nor on the clip, the two sides of a shared edge cancel, and what is full is exactly 1.
+//! An edge that runs down from height y₁ to y₂ through a row leaves ∫ clamp(c + 1 − x(t), 0, 1) dt
+//! of pixel c on its right. Inside the pixels that it touches this is a trapezoid; further right it
+//! is y₂ − y₁, further left nothing. Each trapezoid is computed in f64 from the edge, the row and
+//! the pixel alone, rounded to 2⁻³², and summed in whole numbers. So the sum depends neither on the
+//! order of the edges nor on the clip, the two sides of a shared edge cancel, and what is full is
+//! exactly 1.
 
 use crate::AreaSink;
 use crate::fixed::{floor, low_bits};
@@ -40,8 +41,8 @@ impl Slope {
 
 /// One edge within one row of pixels.
 ///
-/// It is kept so that it runs right: one that runs left is seen in the mirror (x → −x, so that pixel c
-/// becomes pixel −c − 1).
+/// It is kept so that it runs right: one that runs left is seen in the mirror (x → −x, so that
+/// pixel c becomes pixel −c − 1).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
     slope: Slope,
@@ -97,8 +98,8 @@ impl Piece {
 
     /// ∫ clamp(c + 1 − x(t), 0, 1) dt from the start on, for a (mirrored) pixel c.
     ///
-    /// A function of the edge, the row, the pixel and the height, which changes by whole units once the
-    /// edge has left the pixel: so it does not matter at which heights a sum is cut.
+    /// A function of the edge, the row, the pixel and the height, which changes by whole units once
+    /// the edge has left the pixel: so it does not matter at which heights a sum is cut.
     #[inline(always)]
     fn left_behind(&self, c: f64, to: &Reach) -> i64 {
         if c < to.first {

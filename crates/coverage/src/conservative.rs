@@ -2,15 +2,16 @@ use crate::{Cover, Shape};
 use scumble_geometry::IntRect;
 
 impl Shape {
-    /// Conservative coverage, by squares of `cell` pixels aligned to multiples of `cell` (at least 1).
+    /// Conservative coverage, by squares of `cell` pixels aligned to multiples of `cell` (at least
+    /// 1).
     ///
-    /// Every cell of `clip` in which the shape may own a sample is visited once: as part of a rectangle of
-    /// whole cells with [`Cover::Full`] if it certainly owns all of them, or by itself with [`Cover::Partial`].
-    /// All that is visited is the outer coverage, what is `Full` the inner one, for any pattern. Cells that
-    /// reach beyond `clip` are cut to it.
+    /// Every cell of `clip` in which the shape may own a sample is visited once: as part of a
+    /// rectangle of whole cells with [`Cover::Full`] if it certainly owns all of them, or by itself
+    /// with [`Cover::Partial`]. All that is visited is the outer coverage, what is `Full` the inner
+    /// one, for any pattern. Cells that reach beyond `clip` are cut to it.
     ///
-    /// With the size of a tile this sorts shapes into tiles; with 1 it is conservative rasterization by
-    /// pixels. Rectangles are divided only where an edge may pass through.
+    /// With the size of a tile this sorts shapes into tiles; with 1 it is conservative
+    /// rasterization by pixels. Rectangles are divided only where an edge may pass through.
     pub fn visit_cells(&self, clip: IntRect, cell: u32, mut visit: impl FnMut(IntRect, Cover)) {
         let region = clip.intersect(&self.bounds());
         if region.is_empty() {

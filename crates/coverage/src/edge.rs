@@ -32,7 +32,8 @@ impl Edge {
         self.a * x + self.b * y + self.c
     }
 
-    /// The smallest and the largest value over the sample positions that `rect` (not empty) can hold.
+    /// The smallest and the largest value over the sample positions that `rect` (not empty) can
+    /// hold.
     pub(crate) fn extremes(&self, rect: IntRect) -> (i64, i64) {
         let (x0, x1) = (i64::from(rect.x0) * 256, i64::from(rect.x1) * 256 - 1);
         let (y0, y1) = (i64::from(rect.y0) * 256, i64::from(rect.y1) * 256 - 1);

@@ -38,7 +38,8 @@ pub(crate) fn snap_real(v: f64) -> f64 {
 fn snap(v: f64) -> Option<i32> {
     const LIMIT: f64 = GUARD as f64;
     let snapped = floor(v * 256.0 + 0.5);
-    // A NaN fails the comparison. Beyond the guard band `floor` is of no use, but keeps out as well.
+    // A NaN fails the comparison. Beyond the guard band `floor` is of no use, but keeps out as
+    // well.
     (snapped.abs() <= LIMIT).then(|| low_bits(snapped))
 }
 

@@ -1,10 +1,11 @@
 //! Clipping to the guard band.
 //!
-//! What lies beyond ±2²¹ pixels is pushed onto the border of that square, each coordinate clamped by
-//! itself. The push moves no point across the inside of the square, so the winding number of
+//! What lies beyond ±2²¹ pixels is pushed onto the border of that square, each coordinate clamped
+//! by itself. The push moves no point across the inside of the square, so the winding number of
 //! everything inside stays. A straight segment becomes a chain: it bends where it crosses one of
-//! the four border lines, at the nearest 1/256 pixel to the exact crossing of the snapped segment. The chain is a
-//! function of the segment alone, so two shapes that share a segment share the chain.
+//! the four border lines, at the nearest 1/256 pixel to the exact crossing of the snapped segment.
+//! The chain is a function of the segment alone, so two shapes that share a segment share the
+//! chain.
 
 use crate::FixedPoint;
 use crate::fixed::{GUARD, snap_real};

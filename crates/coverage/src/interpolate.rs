@@ -3,10 +3,10 @@ use scumble_geometry::DVec2;
 
 /// The barycentric coordinates over a triangle: how much of each corner a point is.
 ///
-/// They are the edge functions of the snapped triangle divided by its doubled area. The edge functions
-/// are whole numbers that are carried from pixel to pixel without error, so a value does not depend on
-/// where a run began, and each coordinate is within 2⁻⁵² of the true one. Outside the triangle (as the
-/// centre of a pixel on an edge may be) they extrapolate.
+/// They are the edge functions of the snapped triangle divided by its doubled area. The edge
+/// functions are whole numbers that are carried from pixel to pixel without error, so a value does
+/// not depend on where a run began, and each coordinate has a relative error below 2⁻⁵¹. Outside the
+/// triangle (as the centre of a pixel on an edge may be) they extrapolate.
 ///
 /// The corners keep the order in which they were given, whatever the winding.
 #[derive(Debug, Clone, Copy)]
@@ -18,7 +18,8 @@ pub struct Barycentric {
 }
 
 impl Barycentric {
-    /// `None` without area once snapped, or for a corner that is not finite or lies beyond ±2²¹ pixels.
+    /// `None` without area once snapped, or for a corner that is not finite or lies beyond ±2²¹
+    /// pixels.
     #[must_use]
     pub fn new(corners: [DVec2; 3]) -> Option<Self> {
         let [p, q, r] = corners.map(FixedPoint::snap);
@@ -100,7 +101,8 @@ pub struct Perspective {
 pub struct PerspectiveWeights {
     /// How much of each corner's attributes the point has; they sum to 1 but for rounding.
     pub weights: [f64; 3],
-    /// 1/w of the point. Where it is not positive (possible outside the triangle), the point lies behind the eye.
+    /// 1/w of the point. Where it is not positive (possible outside the triangle), the point lies
+    /// behind the eye.
     pub inverse_w: f64,
 }
 

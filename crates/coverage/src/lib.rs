@@ -2,47 +2,102 @@
 //!
 //! A [`Shape`] is a triangle or a polygon, snapped to 1/256 pixel once. [`Shape::rasterize`] names
 //! every sample it owns to a [`Sink`]: whole blocks and runs where all samples of a pixel are
-//! covered, a [`SampleMask`] per pixel along the edges.
+//! covered, a [`SampleMask`] per pixel along the edges. [`Shape::rasterize_area`] tells the exact
+//! part of each pixel that is covered instead.
 //!
 //! ```
 //! use scumble_coverage::{DVec2, IntRect, SampleMask, SamplePattern, Scratch, Shape, Sink};
 //!
-//! struct Count(u32);
-//! impl Sink for Count {
-//!     fn run(&mut self, _y: i32, x0: i32, x1: i32) {
-//!         self.0 += 4 * x0.abs_diff(x1);
+//! /// `#` where all samples are covered, else their number.
+//! struct Picture(Vec<Vec<char>>);
+//! impl Sink for Picture {
+//!     fn run(&mut self, y: i32, x0: i32, x1: i32) {
+//!         self.0[y as usize][x0 as usize..x1 as usize].fill('#');
 //!     }
-//!     fn pixel(&mut self, _x: i32, _y: i32, mask: SampleMask) {
-//!         self.0 += mask.count();
+//!     fn pixel(&mut self, x: i32, y: i32, mask: SampleMask) {
+//!         self.0[y as usize][x as usize] = char::from(b'0' + mask.count() as u8);
 //!     }
 //! }
 //!
-//! let corners = [DVec2::new(1.0, 1.0), DVec2::new(9.0, 1.0), DVec2::new(1.0, 9.0)];
+//! let corners = [DVec2::new(1.0, 0.5), DVec2::new(15.0, 2.0), DVec2::new(4.5, 6.0)];
 //! let Some(shape) = Shape::triangle(corners)? else { return Ok(()) };
-//! let mut count = Count(0);
-//! let canvas = IntRect::new(0, 0, 16, 16);
-//! shape.rasterize(canvas, &SamplePattern::standard(4)?, &mut Scratch::new(), &mut count);
-//! assert_eq!(count.0, 128); // 32 square pixels, 4 samples each
+//! let mut picture = Picture(vec![vec!['.'; 16]; 6]);
+//! let canvas = IntRect::new(0, 0, 16, 6);
+//! shape.rasterize(canvas, &SamplePattern::standard(8)?, &mut Scratch::new(), &mut picture);
+//! let rows: Vec<String> = picture.0.iter().map(|row| row.iter().collect()).collect();
+//! assert_eq!(rows, [
+//!     ".2321...........",
+//!     ".3####77654322..",
+//!     "..6#########741.",
+//!     "..1#######73....",
+//!     "...3###74.......",
+//!     "...1542.........",
+//! ]);
 //! # Ok::<(), scumble_coverage::CoverageError>(())
 //! ```
 //!
 //! # Conventions
 //!
 //! - y points down. Pixel (i, j) is the square [i, i+1) × [j, j+1); rectangles are half-open.
-//! - Coordinates are snapped to floor(256 v + ½) / 256 and kept within ±2²¹ pixels. What lies beyond is
-//!   clipped, each segment in a way that depends on that segment alone, so neighbours still meet.
-//! - Samples stand at whole 1/256 of a pixel ([`SamplePattern`]), and every test is made in whole
-//!   numbers of 64 bits: no rounding decides what is covered.
+//! - Coordinates are snapped to floor(256 v + ½) / 256 and kept within ±2²¹ pixels. What lies
+//!   beyond is clipped, each segment in a way that depends on that segment alone, so neighbours
+//!   still meet; the clipped edge keeps within 1/256 pixel of the true one.
+//! - Samples stand at whole 1/256 of a pixel ([`SamplePattern`]), and every test of a sample is
+//!   made in whole numbers: no rounding decides what is covered.
+//! - Either winding is drawn. What has no area once snapped owns nothing: its constructor returns
+//!   `None`.
 //!
 //! # Guarantees
 //!
-//! - **Each sample once.** A sample exactly on an edge belongs to the side whose left or top edge it
-//!   is, as if it stood (ε, ε²) further. So the triangles of a mesh share out the samples
-//!   inside it without gap or overlap, and a polygon owns the same samples as all triangles of any
-//!   triangulation of it on the 1/256 grid.
-//! - **Clips do not matter.** The samples found in a tile are those of the whole picture there.
-//! - **Any finite input.** Degenerate, huge, self-crossing: right, in a time that depends on the part
-//!   within the clip. What is not finite is refused.
+//! - **Each sample once.** A sample exactly on a left or a top edge belongs to the shape, one on a
+//!   right or a bottom edge does not, as if all samples stood (ε, ε²) further. So the triangles of a
+//!   mesh share out the samples inside it without gap or overlap, and a polygon owns the same
+//!   samples as all triangles of any triangulation of it on the 1/256 grid.
+//! - **Clips do not matter.** The samples found in a tile are those of the whole picture there, and
+//!   so are the bits of every area, save where a polygon crosses itself within 2⁻²⁴ of a pixel of a
+//!   corner's height.
+//! - **Areas add up.** The area of a pixel is right to 10⁻⁶ for the snapped shape, overlaps and
+//!   self-intersections included, and the areas of a mesh sum to that of its outline. One limit: in
+//!   a polygon's row of pixels with 8192 edges or more, heights are rounded to 1/128 pixel and
+//!   coarser; and of n edges that cross in a row more than 65536/n times, the rest of the
+//!   crossings are placed roughly. Such rows may differ a little from clip to clip.
+//! - **Every machine alike.** All instruction sets give the same calls with the same numbers;
+//!   [`Scratch::with_level`] picks one.
+//! - **Any finite input.** Degenerate, huge, self-crossing: right, in a time that depends on the
+//!   edges and the pixels within the clip, not on what lies off it. What is not finite is refused.
+//! - **No allocation** in a call once its [`Scratch`] has grown.
+//!
+//! # Ways to use it
+//!
+//! | want | use |
+//! |---|---|
+//! | samples, with masks | [`Shape::rasterize`] |
+//! | antialiasing of a single layer | [`Shape::rasterize_area`] |
+//! | one-pixel lines | [`hairline`] |
+//! | sorting shapes into tiles, culling, occlusion | [`Shape::covers`], [`Shape::visit_cells`] |
+//! | colours, textures, depth over a triangle | [`Barycentric`], [`Perspective`] |
+//! | the classic algorithms, to compare or to teach | [`Shape::rasterize_by`] |
+//!
+//! The examples `triangle`, `zbuffer` and `order` draw a triangle in twenty lines, a turning
+//! textured cube with a depth test per sample, and the visiting orders of incremental traversal.
+//!
+//! # How it works, and what it costs
+//!
+//! A triangle is three edge functions E(x, y) = a·x + b·y + c ([Pineda 1988]). For a band of eight
+//! rows, a division per edge tells which blocks of 8 × 8 pixels it touches and which it fills; only
+//! blocks on an edge are looked into, sixteen lanes at a time. A polygon adds its edges' winding
+//! numbers to the pixels that they pass through and sums along the row, so nothing is triangulated.
+//!
+//! Per triangle on one core of a 3.8 GHz Zen 5, with a sink that fills words in the cache (the
+//! bench `coverage` has the workloads; set-up is 16 ns of it):
+//!
+//! | triangle | 1 sample | 4 | 16 | exact area |
+//! |---|---|---|---|---|
+//! | 10 pixels | 56 ns | 86 ns | 125 ns | 0.37 µs |
+//! | 500 pixels | 0.54 µs | 0.84 µs | 1.1 µs | 2.3 µs |
+//! | 50,000 pixels | 8.3 µs | 12 µs | 14 µs | 33 µs |
+//!
+//! [Pineda 1988]: https://doi.org/10.1145/54852.378457
 #![cfg_attr(not(feature = "std"), no_std)]
 
 extern crate alloc;

@@ -16,8 +16,8 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    /// Empty working memory, and the best instruction set that this processor has (without the feature `std`: that
-    /// the crate was compiled for).
+    /// Empty working memory, and the best instruction set that this processor has (without the
+    /// feature `std`: that the crate was compiled for).
     #[must_use]
     pub fn new() -> Self {
         #[cfg(feature = "std")]

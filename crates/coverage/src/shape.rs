@@ -136,9 +136,10 @@ impl Shape {
 
     /// Tells how much of each pixel within `clip` the shape covers.
     ///
-    /// The area is that of the snapped shape, exact to about 10⁻⁷ (the error of each edge in a pixel is
-    /// 2⁻³², the result an f32), overlaps and crossings counted by the fill rule. It does not depend on `clip`, and
-    /// the areas of the pieces of a mesh add up to the area of the whole.
+    /// The area is that of the snapped shape, exact to about 10⁻⁷ (the error of each edge in a
+    /// pixel is 2⁻³², the result an f32), overlaps and crossings counted by the fill rule. It does
+    /// not depend on `clip`, and the areas of the pieces of a mesh add up to the area of the whole
+    /// (the [crate] page has the fine print on very crowded polygons).
     pub fn rasterize_area(&self, clip: IntRect, scratch: &mut Scratch, sink: &mut impl AreaSink) {
         let region = clip.intersect(&self.bounds());
         if region.is_empty() {

@@ -24,8 +24,8 @@ pub trait Sink {
 
 /// Receives the covered area of one shape, pixel by pixel.
 ///
-/// As with [`Sink`], the order of the calls is not specified but always the same, and each pixel is named at most
-/// once per call of [`Shape::rasterize_area`](crate::Shape::rasterize_area).
+/// As with [`Sink`], the order of the calls is not specified but always the same, and each pixel is
+/// named at most once per call of [`Shape::rasterize_area`](crate::Shape::rasterize_area).
 pub trait AreaSink {
     /// Every pixel in `rect`, which is not empty, is covered whole.
     fn block(&mut self, rect: IntRect) {

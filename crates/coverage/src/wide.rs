@@ -2,7 +2,8 @@
 
 use crate::fixed::snap_real;
 
-/// 1088 bits, two's complement, the lowest limb first: room for the difference of two `f64`s at 2⁹ units each.
+/// 1088 bits, two's complement, the lowest limb first: room for the difference of two `f64`s at 2⁹
+/// units each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Wide([u64; Self::LIMBS]);
 

@@ -86,8 +86,8 @@ proptest! {
 }
 
 proptest! {
-    /// Beyond the guard band the edges are rounded where they cross its border, so that a sample closer than 1/256
-    /// pixel to an edge may go either way. All others must not.
+    /// Beyond the guard band the edges are rounded where they cross its border, so that a sample
+    /// closer than 1/256 pixel to an edge may go either way. All others must not.
     #[test]
     fn huge_shapes_are_right_near_the_origin(
         p in prop::array::uniform3(prop::array::uniform2(-(1i64 << 44)..1 << 44)),

@@ -1,10 +1,10 @@
 //! Exact area of polygons under a fill rule.
 //!
 //! Summing signed areas is only right where the winding number is 0 or 1. So each row of pixels is
-//! cut at the heights where an edge begins, ends or crosses another. Inside such a strip the edges have an
-//! order from left to right, the winding number follows, and so does which of them bound the
-//! inside: +1 where it begins, −1 where it ends, 0 for an edge between inside and inside. An edge
-//! is handed to the sums only when that changes.
+//! cut at the heights where an edge begins, ends or crosses another. Inside such a strip the edges
+//! have an order from left to right, the winding number follows, and so does which of them bound
+//! the inside: +1 where it begins, −1 where it ends, 0 for an edge between inside and inside. An
+//! edge is handed to the sums only when that changes.
 
 use super::rows::{PolygonScratch, Rows};
 use super::{Polygon, PolygonEdge};
@@ -17,17 +17,17 @@ use scumble_geometry::IntRect;
 /// Columns of a row's sums: what comfortably stays in the cache.
 const ROW_CELLS: i32 = 1 << 15;
 
-/// With more edges than this in one row of pixels, the heights where they begin and end are rounded to a
-/// power of two times 1/256 pixel, so that the work in a row stays within edges × log(edges).
-/// The area of such a crowded row is then off by no more than the shapes' width times that.
+/// With more edges than this in one row of pixels, the heights where they begin and end are rounded
+/// to a power of two times 1/256 pixel, so that the work in a row stays within edges × log(edges).
+/// Each edge's part in such a crowded row is then off by no more than that height.
 const CROWD: usize = 4096;
 
 /// Strips per row that crossings may add, times edges. Beyond it edges that cross inside a strip
 /// count as if they did so at its end.
 const CROSSING_WORK: usize = 1 << 16;
 
-/// Two edges have crossed if they are out of order by more than this (in pixels). Less is rounding, and as an area
-/// it is far below that of an f32.
+/// Two edges have crossed if they are out of order by more than this (in pixels). Less is rounding,
+/// and as an area it is far below that of an f32.
 const OUT_OF_ORDER: f64 = 1.0 / (1 << 26) as f64;
 
 /// Working memory of a row.

@@ -67,7 +67,8 @@ pub(crate) struct Polygon {
     /// By rising y0.
     edges: Vec<PolygonEdge>,
     chunks: Vec<Chunk>,
-    /// The level edges, by rising y: no row of samples crosses one, but the winding number changes there.
+    /// The level edges, by rising y: no row of samples crosses one, but the winding number changes
+    /// there.
     levels: Vec<Level>,
     bounds: IntRect,
     rule: FillRule,

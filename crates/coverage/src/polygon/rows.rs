@@ -87,8 +87,8 @@ impl Rows {
         &self.steps[self.passed..self.passing]
     }
 
-    /// The first row from `y` on, up to `end`, in which anything changes along it: the rows before that are all
-    /// inside or all outside.
+    /// The first row from `y` on, up to `end`, in which anything changes along it: the rows before
+    /// that are all inside or all outside.
     pub(super) fn calm_until(&self, y: i32, end: i32) -> i32 {
         if !self.active.is_empty() || self.passing > self.passed {
             return y;

@@ -1,10 +1,10 @@
 //! Sampled polygons: exact crossings of the edges with every row of samples.
 //!
 //! A sample has an edge on its left if it stands at or right of the crossing with its row. Each
-//! edge adds its ±1 to the first pixel of each sample where that is so, the pixels that got anything are
-//! marked, and one sweep over the marked pixels sums the winding numbers of all samples side by
-//! side. Between marked pixels nothing changes, so whole runs are handed on at once, and nothing is
-//! ever sorted along x.
+//! edge adds its ±1 to the first pixel of each sample where that is so, the pixels that got
+//! anything are marked, and one sweep over the marked pixels sums the winding numbers of all
+//! samples side by side. Between marked pixels nothing changes, so whole runs are handed on at
+//! once, and nothing is ever sorted along x.
 //!
 //! With one sample the crossing is a division, x = ⌈x₀ + (Y − y₀)·Δx/Δy⌉. With more, the few
 //! pixels that the edge passes through in a row test all their samples side by side instead.
@@ -20,7 +20,8 @@ use scumble_geometry::{FillRule, IntRect};
 /// Cells (pixels × samples) of a row's winding buffer: what comfortably stays in the cache.
 const ROW_CELLS: i32 = 1 << 16;
 
-/// Beyond this |Δx| + |Δy| (in 1/256 pixel) an edge needs 64 bits inside a pixel and is crossed by division.
+/// Beyond this |Δx| + |Δy| (in 1/256 pixel) an edge needs 64 bits inside a pixel and is crossed by
+/// division.
 const NARROW: i64 = 1 << 22;
 
 /// Edge values beyond this keep their sign over the whole pixel, so they can be cut to it.
@@ -207,8 +208,8 @@ impl Strip<'_> {
         }
     }
 
-    /// The pixels of row `y` that the edge can pass through: the first, held to the clip's left side, and
-    /// the last, no further left than one before it.
+    /// The pixels of row `y` that the edge can pass through: the first, held to the clip's left
+    /// side, and the last, no further left than one before it.
     #[inline(always)]
     fn columns(&self, edge: &PolygonEdge, y: i32) -> (i32, i32) {
         let slope =
@@ -245,8 +246,8 @@ impl Strip<'_> {
         out.flush();
     }
 
-    /// Adds the changes of a pixel to the winding numbers and empties them (if `change`), and tells which
-    /// samples are inside.
+    /// Adds the changes of a pixel to the winding numbers and empties them (if `change`), and tells
+    /// which samples are inside.
     #[inline(always)]
     fn take<S: Simd>(&self, simd: S, column: usize, row: &mut RowWinding, change: bool) -> u64 {
         if self.stride == 1 {

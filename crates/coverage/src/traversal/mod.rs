@@ -11,12 +11,12 @@ use crate::{SampleMask, SamplePattern, Sink};
 use order::Visit;
 use scumble_geometry::IntRect;
 
-/// How to find the samples that a shape covers. All give the same samples; they differ in the time they
-/// take and in the order of the calls to the sink.
+/// How to find the samples that a shape covers. All give the same samples; they differ in the time
+/// they take and in the order of the calls to the sink.
 ///
-/// [`Shape::rasterize`](crate::Shape::rasterize) is [`Traversal::Tiled`], the one to use. The others
-/// are for tests, measurement and teaching. Polygons know two: [`Traversal::BoundingBox`]
-/// is their definition, and every other stands for the sweep over crossings.
+/// [`Shape::rasterize`](crate::Shape::rasterize) is [`Traversal::Tiled`], the one to use. The
+/// others are for tests, measurement and teaching. Polygons know two: [`Traversal::BoundingBox`] is
+/// their definition, and every other stands for the sweep over crossings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Traversal {
     /// Blocks of 8 × 8 pixels, accepted or rejected whole where possible.

@@ -1,14 +1,14 @@
 use scumble_geometry::IntRect;
 
-/// The order in which [`Traversal::Incremental`](crate::Traversal::Incremental) visits the pixels of the
-/// bounding box.
+/// The order in which [`Traversal::Incremental`](crate::Traversal::Incremental) visits the pixels
+/// of the bounding box.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Order {
     /// Row by row, each from the left.
     #[default]
     RowMajor,
-    /// Row by row, but only as far as the shape reaches: left from where the row above began until it ends,
-    /// back again, then right until it ends.
+    /// Row by row, but only as far as the shape reaches: left from where the row above began until
+    /// it ends, back again, then right until it ends.
     Backtrack,
     /// Row by row, to the right and to the left in turn: each step goes to a neighbour.
     ZigZag,

@@ -1,4 +1,5 @@
-//! Scanlines: each row of samples meets the triangle in one range, whose ends are the exact crossings.
+//! Scanlines: each row of samples meets the triangle in one range, whose ends are the exact
+//! crossings.
 
 use crate::edge::Edge;
 use crate::{SampleMask, SamplePattern, Sink};

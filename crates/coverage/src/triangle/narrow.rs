@@ -1,8 +1,8 @@
 //! Blocks in 32 bits, sixteen lanes at a time.
 //!
-//! Two rows of eight pixels make one vector. Up to [`FEW`] samples are tested one after the other, for all
-//! sixteen pixels at once; with more, the pixels that an edge can cross are found
-//! first, and each of them tests its samples side by side.
+//! Two rows of eight pixels make one vector. Up to [`FEW`] samples are tested one after the other,
+//! for all sixteen pixels at once; with more, the pixels that an edge can cross are found first,
+//! and each of them tests its samples side by side.
 
 use super::tiled::Block;
 use crate::edge::Edge;
@@ -10,7 +10,8 @@ use crate::{SampleMask, SamplePattern, Sink};
 use fearless_simd::{Simd, i32x16, prelude::*};
 use scumble_geometry::IntRect;
 
-/// Up to so many samples, a pass over the pixels per sample is quicker than one over the samples per pixel.
+/// Up to so many samples, a pass over the pixels per sample is quicker than one over the samples
+/// per pixel.
 const FEW: usize = 4;
 
 /// Edge values beyond this keep their sign over the whole block, so they can be cut to it.

@@ -1,8 +1,8 @@
 //! Tiled traversal: edge functions over blocks of 8 × 8 pixels.
 //!
-//! The blocks of one band of eight rows that a triangle touches lie side by side, and so do those that
-//! it fills. Both ranges come from a division per edge, so the middle is handed on as
-//! one rectangle and only the blocks on an edge are looked into.
+//! The blocks of one band of eight rows that a triangle touches lie side by side, and so do those
+//! that it fills. Both ranges come from a division per edge, so the middle is handed on as one
+//! rectangle and only the blocks on an edge are looked into.
 
 use super::Triangle;
 use super::narrow::Narrow;
@@ -104,8 +104,8 @@ fn band(block: &impl Block, edges: &[Edge; 3], rows: IntRect, sink: &mut impl Si
     merged.flush();
 }
 
-/// From this width on (in pixels) the middle of a band is handed on as a block of its own. A narrower
-/// one is joined with the stretches on its sides: what a sink pays per run outweighs that.
+/// From this width on (in pixels) the middle of a band is handed on as a block of its own. A
+/// narrower one is joined with the stretches on its sides: what a sink pays per run outweighs that.
 const WIDE_BLOCK: i32 = 64;
 
 /// Joins the stretches of each row of a band: those of a triangle touch.

@@ -29,8 +29,8 @@ fn cross(p: Point, q: Point, r: Point) -> i64 {
 }
 
 impl Mesh {
-    /// Within about `pixels` of the origin. `grain` (a divisor of 256) is the grid of the corners: a coarse one
-    /// puts many samples exactly on edges.
+    /// Within about `pixels` of the origin. `grain` (a divisor of 256) is the grid of the corners:
+    /// a coarse one puts many samples exactly on edges.
     pub(crate) fn random(random: &mut Random, pixels: i64, grain: i64) -> Self {
         let span = pixels * 256 / grain;
         let mut point =
