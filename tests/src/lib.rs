@@ -20,3 +20,8 @@ pub use compare::{Comparison, compare, triptych};
 pub use golden::{Golden, Mode};
 pub use grid::{Ownership, Tally, samples_of};
 pub use scene::{load, picture, scene_names, scenes_folder, texture};
+
+/// The README's examples compile and hold.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

@@ -1,6 +1,7 @@
 //! Commands that only call others.
 
 use crate::{Outcome, root, tidy};
+use serde_json::Value;
 use std::process::Command;
 use std::time::Instant;
 
@@ -40,6 +41,14 @@ pub(crate) fn cargo<'a>(args: impl IntoIterator<Item = &'a str>) -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(args).current_dir(root());
     command
+}
+
+/// The workspace as cargo sees it.
+pub(crate) fn metadata() -> Result<Value, String> {
+    let output = cargo(["metadata", "--format-version", "1", "--no-deps"])
+        .output()
+        .map_err(|e| format!("cargo metadata could not be started: {e}"))?;
+    serde_json::from_slice(&output.stdout).map_err(|e| format!("cargo metadata: {e}"))
 }
 
 /// Runs a command to its end; a failure is an error that names it.

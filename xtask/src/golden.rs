@@ -1,6 +1,6 @@
 //! `cargo xtask golden`: runs the picture tests, accepts their pictures, or shows them all.
 
-use crate::commands::{cargo, finish};
+use crate::commands::{cargo, finish, metadata};
 use crate::{Outcome, root};
 use serde_json::Value;
 use std::fmt::Write as _;
@@ -17,6 +17,13 @@ pub(crate) fn run(args: &[&str]) -> Outcome {
         [filter] => ("run", Some(*filter)),
         _ => return Err("usage: golden [run|bless|report] [FILTER]".to_owned()),
     };
+    let metadata = metadata()?;
+    let target = metadata["target_directory"].as_str().ok_or("cargo metadata names no target")?;
+    let folder = Path::new(target).join(RESULTS);
+    if filter.is_none() && folder.exists() {
+        // Reports of cases that are gone would look like failures.
+        std::fs::remove_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    }
     let mut command = cargo(["test", "--quiet", "-p", "scumble-tests", "--test", "golden", "--"]);
     command.args(filter);
     if mode == "bless" {
@@ -26,21 +33,9 @@ pub(crate) fn run(args: &[&str]) -> Outcome {
     if mode != "report" {
         return outcome;
     }
-    let folder = target()?.join(RESULTS);
     let page = report(&folder)?;
     println!("{}", page.display());
     outcome
-}
-
-/// The target folder, wherever the configuration puts it.
-fn target() -> Result<PathBuf, String> {
-    let output = cargo(["metadata", "--format-version", "1", "--no-deps"])
-        .output()
-        .map_err(|e| format!("cargo metadata could not be started: {e}"))?;
-    let metadata: Value =
-        serde_json::from_slice(&output.stdout).map_err(|e| format!("cargo metadata: {e}"))?;
-    let folder = metadata["target_directory"].as_str().ok_or("cargo metadata names no target")?;
-    Ok(PathBuf::from(folder))
 }
 
 /// Writes `index.html` over the harness's reports and gives its path.
@@ -78,12 +73,14 @@ fn html(mut reports: Vec<Value>, references: &Path) -> String {
         let (class, text, picture) = if passed(report) {
             ("passed", String::new(), references.join(format!("{name}.png")).display().to_string())
         } else {
-            let text = format!(
-                "<p>{}: {} pixels differ, by up to {} levels (expected, difference, actual)</p>",
-                escaped(report["status"].as_str().unwrap_or_default()),
-                report["count"],
-                report["max_difference"]
-            );
+            let text = match (report["count"].as_u64(), report["max_difference"].as_u64()) {
+                (Some(count), Some(most)) => format!(
+                    "<p>{count} pixels differ, by up to {most} levels (expected, difference, \
+                     actual)</p>"
+                ),
+                _ if report["status"] == "missing" => "<p>There is no reference.</p>".to_owned(),
+                _ => "<p>The size differs.</p>".to_owned(),
+            };
             let picture = report["picture"].as_str().unwrap_or_default();
             ("failed", text, picture.to_owned())
         };
@@ -113,13 +110,15 @@ mod tests {
                 json!({ "name": "a", "status": "equal" }),
                 json!({ "name": "z<", "status": "different", "count": 3, "max_difference": 9,
                         "picture": "z.png" }),
+                json!({ "name": "y", "status": "missing", "picture": "y.png" }),
             ],
             Path::new("refs"),
         );
-        assert!(page.contains("2 pictures, 1 to look at"));
+        assert!(page.contains("3 pictures, 2 to look at"));
         let (failed, passed) = (page.find("z&lt;"), page.find("<h2>a</h2>"));
         assert!(failed.is_some() && failed < passed);
         assert!(page.contains("3 pixels differ, by up to 9 levels"));
+        assert!(page.contains("There is no reference"));
         assert!(!page.contains("z<"));
     }
 }

@@ -87,6 +87,13 @@ mod tests {
         assert_eq!(one_line("é 図 — “ok”"), "é 図 — “ok”");
     }
 
+    proptest::proptest! {
+        #[test]
+        fn no_text_commands_the_terminal(text in ".*") {
+            assert!(!one_line(&text).chars().any(char::is_control));
+        }
+    }
+
     #[test]
     fn each_kind_has_its_status() {
         let code = |f: Failure| format!("{:?}", f.exit_code());

@@ -57,7 +57,7 @@ impl Source {
         match text {
             Ok(Some(text)) => Ok(text),
             Ok(None) => Err(Failure::Limit(format!(
-                "{}: the scene is longer than {max} bytes (--max-memory)",
+                "{}: the scene is longer than {max} bytes, which --max-memory sets",
                 self.name()
             ))),
             Err(e) => Err(Failure::io(self.name(), &e)),

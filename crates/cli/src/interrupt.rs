@@ -1,7 +1,8 @@
 //! Ctrl-C: nothing half-written stays behind.
 //!
 //! While there is nothing to clean up, a signal ends the process as it always does. While a
-//! temporary file exists, it only asks the renderer to stop, and the file is removed on the way out.
+//! temporary file exists, it only asks the renderer to stop, and the file is removed on the way
+//! out. Whoever cannot wait for that sends a second one, which ends the process and leaves the file.
 
 use crate::error::Failure;
 use signal_hook::consts::{SIGINT, SIGTERM};
@@ -39,6 +40,7 @@ impl Interrupt {
         for signal in [SIGINT, SIGTERM] {
             // Actions run in the order of registration.
             flag::register_conditional_default(signal, Arc::clone(&self.nothing_to_clean))?;
+            flag::register_conditional_default(signal, Arc::clone(&self.cancel))?;
             let number = usize::try_from(signal).unwrap_or_default();
             flag::register_usize(signal, Arc::clone(&self.signal), number)?;
             flag::register(signal, Arc::clone(&self.cancel))?;

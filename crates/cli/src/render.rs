@@ -99,24 +99,32 @@ impl Job<'_> {
     }
 }
 
-/// What a scene may cost, given what the run may use.
-///
-/// The shares leave room for the rest: an image is held decoded and as a pyramid, a document as
-/// text and as a tree.
+/// Memory that an element of a document takes while it is read, roughly.
+const BYTES_PER_ELEMENT: u64 = 2048;
+
+/// Memory that an image takes in the end for each byte that it has as pixels: a pixel is four bytes
+/// at first, and then sixteen in a pyramid that is a third larger than its base.
+const BYTES_PER_IMAGE_BYTE: u64 = 6;
+
+/// Memory that a byte of text may come to take: rectangles and path data have been seen at 16 to 32.
+const BYTES_PER_TEXT_BYTE: u64 = 32;
+
+/// Memory that the longest file beside the scene may take while it is decoded: one part in so many.
+const FILE_SHARE: u64 = 8;
+
+/// What a scene may cost, given what the run may use. The renderer, which knows the whole, counts
+/// again; these stop a hostile scene before it takes the memory, and say where it is.
 fn limits(options: &Render) -> Limits {
     let memory = options.limits.max_memory;
     let share = |part: u64| usize::try_from(memory / part).unwrap_or(usize::MAX);
     let mut limits = Limits::default();
-    limits.max_document_bytes = limits.max_document_bytes.min(share(8));
+    limits.max_document_bytes = limits.max_document_bytes.min(share(BYTES_PER_TEXT_BYTE));
     limits.max_elements = limits.max_elements.min(share(BYTES_PER_ELEMENT));
-    limits.max_file_bytes = limits.max_file_bytes.min(share(8));
+    limits.max_file_bytes = limits.max_file_bytes.min(share(FILE_SHARE));
     limits.max_image_pixels = options.limits.max_pixels;
-    limits.max_image_bytes = memory / 2;
+    limits.max_image_bytes = memory / BYTES_PER_IMAGE_BYTE;
     limits
 }
-
-/// Memory that an element of a document takes while it is read, roughly.
-const BYTES_PER_ELEMENT: u64 = 2048;
 
 fn read(
     source: &Source,

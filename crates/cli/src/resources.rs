@@ -230,6 +230,17 @@ mod tests {
         assert!(matches!(folders.read("long.png"), Err(Refusal::TooLong(100))));
     }
 
+    proptest::proptest! {
+        #[test]
+        fn no_spelling_leads_outside(href in "(\\.\\.|\\.|%2e|%2E%2e|/|%2f|sub|up|in\\.png|out\\.png|%|\\\\){1,8}") {
+            let root = tree();
+            fs::write(root.path().join("scene/up"), "scene/up").unwrap();
+            if let Ok(data) = folders(&root, &[]).read(&href) {
+                assert!(data.starts_with(b"scene/"), "{href}");
+            }
+        }
+    }
+
     #[test]
     fn what_was_read_is_remembered() {
         let root = tree();

@@ -112,5 +112,78 @@ fn coverage(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, coverage);
+/// Each way of finding the samples, on T5.
+fn traversal(c: &mut Criterion) {
+    let mut group = c.benchmark_group("traversal");
+    group.sample_size(10);
+    let shapes = shapes(&triangles(10_000, 500.0));
+    let ways = [
+        ("tiled", Traversal::Tiled),
+        ("scanline", Traversal::Scanline),
+        ("bounding box", Traversal::BoundingBox),
+        ("row-major", Traversal::Incremental(Order::RowMajor)),
+        ("backtrack", Traversal::Incremental(Order::Backtrack)),
+        ("zig-zag", Traversal::Incremental(Order::ZigZag)),
+        ("Morton", Traversal::Incremental(Order::Morton)),
+        ("Hilbert", Traversal::Incremental(Order::Hilbert)),
+    ];
+    let mut paint = Paint::new();
+    let mut scratch = Scratch::new();
+    for (name, way) in ways {
+        for samples in [1, 4, 9, 16] {
+            let pattern = SamplePattern::grid(samples).unwrap();
+            group.bench_function(BenchmarkId::new(name, samples), |b| {
+                b.iter(|| {
+                    for s in &shapes {
+                        s.rasterize_by(way, FRAME, &pattern, &mut scratch, &mut paint);
+                    }
+                });
+            });
+        }
+    }
+    group.finish();
+}
+
+/// 240 closed curves of 64 corners within 900 × 900 pixels: filled paths.
+fn paths(c: &mut Criterion) {
+    let mut group = c.benchmark_group("paths");
+    group.sample_size(10);
+    let centers = triangles(240, 10.0);
+    let shapes: Vec<Shape> = (0u32..)
+        .zip(&centers)
+        .filter_map(|(i, p)| {
+            let size = 10.0 + f64::from(i * i % 151);
+            let corner = |k: u32| {
+                let angle = f64::from(k) * core::f64::consts::TAU / 64.0;
+                let radius = size * (1.0 + 0.3 * (3.0 * angle).sin() + 0.1 * (7.0 * angle).cos());
+                p[0] * DVec2::new(0.47, 0.83) + DVec2::new(angle.cos(), angle.sin()) * radius
+            };
+            let points: Vec<DVec2> = (0..64).map(corner).collect();
+            Shape::polygon([&points[..]], FillRule::NonZero).unwrap()
+        })
+        .collect();
+    let clip = IntRect::new(0, 0, 900, 900);
+    let mut paint = Paint::new();
+    let mut scratch = Scratch::new();
+    for samples in [1, 4, 16] {
+        let pattern = SamplePattern::standard(samples).unwrap();
+        group.bench_function(BenchmarkId::new("samples", samples), |b| {
+            b.iter(|| {
+                for s in &shapes {
+                    s.rasterize(clip, &pattern, &mut scratch, &mut paint);
+                }
+            });
+        });
+    }
+    group.bench_function("area", |b| {
+        b.iter(|| {
+            for s in &shapes {
+                s.rasterize_area(clip, &mut scratch, &mut paint);
+            }
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, coverage, traversal, paths);
 criterion_main!(benches);

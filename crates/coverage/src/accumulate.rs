@@ -7,6 +7,7 @@
 //! the edges nor on the clip, the two sides of a shared edge cancel, and what is full is exactly 1.
 
 use crate::AreaSink;
+use crate::fixed::{floor, low_bits};
 use alloc::vec::Vec;
 
 /// One whole pixel.
@@ -63,7 +64,7 @@ struct Reach {
 
 impl Piece {
     /// `start`: the height at which the edge enters the row (the row's top or its own).
-    #[inline]
+    #[inline(always)]
     pub(crate) fn new(slope: Slope, start: f64) -> Self {
         let mirrored = slope.run < 0.0;
         let x = slope.at(start);
@@ -76,7 +77,18 @@ impl Piece {
         }
     }
 
+    /// The height at which the edge enters the row.
+    pub(crate) fn start(&self) -> f64 {
+        self.start
+    }
+
+    /// x at a height.
     #[inline]
+    pub(crate) fn at(&self, y: f64) -> f64 {
+        self.slope.at(y)
+    }
+
+    #[inline(always)]
     fn reach(&self, y: f64) -> Reach {
         let x = self.slope.at(y);
         let x = if self.mirrored { -x } else { x };
@@ -87,7 +99,7 @@ impl Piece {
     ///
     /// A function of the edge, the row, the pixel and the height, which changes by whole units once the
     /// edge has left the pixel: so it does not matter at which heights a sum is cut.
-    #[inline]
+    #[inline(always)]
     fn left_behind(&self, c: f64, to: &Reach) -> i64 {
         if c < to.first {
             return 0;
@@ -98,20 +110,16 @@ impl Piece {
         let time = |x: f64| ((x - self.x) * self.rise).min(to.height);
         let (enter, from) = if c > to.first { (time(c), 0.0) } else { (0.0, self.x - c) };
         let (leave, until) = if c < to.last { (time(c + 1.0), 1.0) } else { (to.height, to.x - c) };
-        round_units(enter + (leave - enter).max(0.0) * (1.0 - 0.5 * (from + until)))
+        to_units(enter + (leave - enter).max(0.0) * (1.0 - 0.5 * (from + until)))
     }
 }
 
-/// Exact for multiples of 2⁻³².
-#[inline]
+/// The nearest whole number of units, for |v| < 2¹⁹: exact for multiples of 2⁻³².
+#[inline(always)]
 fn to_units(v: f64) -> i64 {
-    (v * ONE as f64) as i64
-}
-
-/// The nearest whole number of units of a v ≥ 0.
-#[inline]
-fn round_units(v: f64) -> i64 {
-    (v * ONE as f64 + 0.5) as i64
+    // 1.5 × 2²⁰ leaves 32 bits after the point, and the addition rounds to them.
+    const ROUNDER: f64 = 1_572_864.0;
+    (v + ROUNDER).to_bits() as i64 - ROUNDER.to_bits() as i64
 }
 
 /// Sums of one row of pixels within a clip.
@@ -139,36 +147,29 @@ impl AreaRow {
     }
 
     /// Adds `weight` times what lies right of the piece between the heights `top` and `bottom`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn add(&mut self, piece: &Piece, top: f64, bottom: f64, weight: i64) {
-        let whole = top <= piece.start;
-        let (low, high) = (piece.reach(top), piece.reach(bottom));
-        let before = |c: f64| if whole { 0 } else { piece.left_behind(c, &low) };
+        let high = piece.reach(bottom);
+        let low = (top > piece.start).then(|| piece.reach(top));
         let height = to_units(bottom - top);
+        let mirrored = piece.mirrored;
+        let (x0, x1) = if mirrored { (-self.x1, -self.x0) } else { (self.x0, self.x1) };
         // Held to the clip's columns while still real: the numbers may be far outside.
-        let (x0, x1) = (f64::from(self.x0) - 1.0, f64::from(self.x1));
-        if piece.mirrored {
-            // What lies left of it in the mirror lies right of it: the rest of the height.
-            let first = (-1.0 - high.last).clamp(x0, x1) as i32;
-            let last = (-1.0 - low.last).clamp(x0, x1) as i32;
-            for x in first.max(self.x0)..(last + 1).min(self.x1) {
-                let c = -1.0 - f64::from(x);
-                let left = piece.left_behind(c, &high) - before(c);
-                let column = self.mark(x);
-                self.within[column] += weight * (height - left);
+        let column = |c: f64| low_bits(c.clamp(f64::from(x0) - 1.0, f64::from(x1)));
+        let first = column(low.map_or(high.first, |low| low.last));
+        let last = column(high.last);
+        for c in first.max(x0)..(last + 1).min(x1) {
+            let at = f64::from(c);
+            let mut part = piece.left_behind(at, &high);
+            if let Some(low) = &low {
+                part -= piece.left_behind(at, low);
             }
-            self.add_from(last + 1, weight * height);
-        } else {
-            let first = low.last.clamp(x0, x1) as i32;
-            let last = high.last.clamp(x0, x1) as i32;
-            for x in first.max(self.x0)..(last + 1).min(self.x1) {
-                let c = f64::from(x);
-                let right = piece.left_behind(c, &high) - before(c);
-                let column = self.mark(x);
-                self.within[column] += weight * right;
-            }
-            self.add_from(last + 1, weight * height);
+            // What is left behind in the mirror lies left of the edge: the rest is right of it.
+            let (x, right) = if mirrored { (-1 - c, height - part) } else { (c, part) };
+            let column = self.mark(x);
+            self.within[column] += weight * right;
         }
+        self.add_from(if mirrored { -first } else { last + 1 }, weight * height);
     }
 
     /// Adds to all pixels from `x` on (which may be left or right of the clip).
@@ -238,9 +239,4 @@ impl<S: AreaSink> Emitter<'_, S> {
             self.sink.run(self.y, x0, x1);
         }
     }
-}
-
-#[inline]
-fn floor(v: f64) -> f64 {
-    crate::fixed::floor(v)
 }

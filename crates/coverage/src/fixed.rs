@@ -47,7 +47,7 @@ const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// The whole number v, |v| ≤ 2³¹. A plain cast would also look for NaN and saturate.
 #[inline]
-fn low_bits(v: f64) -> i32 {
+pub(crate) fn low_bits(v: f64) -> i32 {
     (v + ROUNDER).to_bits() as i32
 }
 

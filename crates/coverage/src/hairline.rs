@@ -17,34 +17,38 @@ pub fn hairline(a: DVec2, b: DVec2, clip: IntRect, mut visit: impl FnMut(i32, i3
     if half.x.abs() >= half.y.abs() {
         // The last step is the last one in the column of x₁ that has not passed y₁: a horizontal
         // line, which never passes it, may go up to a pixel beyond x₁.
-        let to =
-            if half.y == 0.0 { DVec2::new(from.x + floor(to.x) - floor(from.x), to.y) } else { to };
-        walk(from, to, (clip.x0, clip.x1), (clip.y0, clip.y1), visit);
+        let last = if half.y == 0.0 { floor(to.x) - floor(from.x) } else { floor(2.0 * half.x) };
+        walk(from, half, last, (clip.x0, clip.x1), (clip.y0, clip.y1), visit);
     } else {
         let swap = |p: DVec2| DVec2::new(p.y, p.x);
-        walk(swap(from), swap(to), (clip.y0, clip.y1), (clip.x0, clip.x1), |y, x| visit(x, y));
+        let last = floor(2.0 * half.y.abs());
+        let (xs, ys) = ((clip.x0, clip.x1), (clip.y0, clip.y1));
+        walk(swap(from), swap(half), last, ys, xs, |y, x| visit(x, y));
     }
 }
 
-/// Walks x from `from.x` towards `to.x` by ones, within the half-open ranges `xs` and `ys`.
-fn walk(from: DVec2, to: DVec2, xs: (i32, i32), ys: (i32, i32), mut visit: impl FnMut(i32, i32)) {
-    let half = to * 0.5 - from * 0.5;
+/// Walks `last` steps of one along x, the way that `half` points, and along y in proportion, within
+/// the half-open ranges `xs` and `ys`.
+fn walk(
+    from: DVec2,
+    half: DVec2,
+    last: f64,
+    xs: (i32, i32),
+    ys: (i32, i32),
+    mut visit: impl FnMut(i32, i32),
+) {
     let slope = if half.x == 0.0 { 0.0 } else { half.y / half.x };
     let start = floor(from.x);
-    // Step t stands at from.x ± t, and so in column start ± t; these are the t inside `xs`.
-    let (sign, low, high) = if half.x >= 0.0 {
-        (1.0, f64::from(xs.0) - start, f64::from(xs.1) - 1.0 - start)
-    } else {
-        (-1.0, start - (f64::from(xs.1) - 1.0), start - f64::from(xs.0))
-    };
-    let last = floor(half.x.abs() * 2.0);
-    let mut step = low.max(0.0);
-    while step <= high.min(last) {
-        let y = floor(from.y + sign * step * slope);
+    // Step t stands at from.x ± t, and so in column start ± t.
+    let sign = if half.x >= 0.0 { 1.0 } else { -1.0 };
+    let end = start + sign * last;
+    let first = start.min(end).max(f64::from(xs.0)) as i32;
+    let beyond = (start.max(end) + 1.0).min(f64::from(xs.1)) as i32;
+    for column in first..beyond {
+        let y = floor(from.y + (f64::from(column) - start) * slope);
         if y >= f64::from(ys.0) && y < f64::from(ys.1) {
-            visit((start + sign * step) as i32, y as i32);
+            visit(column, y as i32);
         }
-        step += 1.0;
     }
 }
 

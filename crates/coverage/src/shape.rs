@@ -106,7 +106,9 @@ impl Shape {
             Kind::Triangle(t) => {
                 t.rasterize(region, pattern, scratch.level, &mut scratch.triangle, sink);
             }
-            Kind::Polygon(p) => p.rasterize(region, pattern, &mut scratch.polygon, sink),
+            Kind::Polygon(p) => {
+                p.rasterize(region, pattern, scratch.level, &mut scratch.polygon, sink);
+            }
         }
     }
 

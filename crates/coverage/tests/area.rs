@@ -154,3 +154,49 @@ fn overlaps_count_by_the_rule() {
         check(&contours, rule, &areas(polygon(&contours, rule), SMALL), SMALL);
     }
 }
+
+/// Ten thousand slanted bars and gaps, 64 to the pixel: far more edges in a row than are looked at
+/// one height at a time. Half of each pixel within is covered, whatever the rule.
+#[test]
+fn crowded_rows_are_right_in_the_mean() {
+    let bars: Vec<Vec<[i64; 2]>> = (0..10_000)
+        .map(|i| {
+            let x = i * 4;
+            vec![[x, 100], [x + 2, 100], [x + 514, 2007], [x + 512, 2007]]
+        })
+        .collect();
+    for rule in [FillRule::NonZero, FillRule::EvenOdd] {
+        let clip = IntRect::new(50, 0, 60, 9);
+        let found = areas(polygon(&bars, rule), clip);
+        for y in 1..7 {
+            for x in 50..60 {
+                let area = found.0[&(x, y)];
+                assert!((area - 0.5).abs() < 0.01, "{x}, {y}: {area}");
+            }
+        }
+    }
+}
+
+/// A star of a million corners: what lies off the clip must not cost.
+#[test]
+fn a_million_corners_are_no_trouble() {
+    let points: Vec<DVec2> = (0..1_000_000)
+        .map(|i| {
+            let angle = f64::from(i) * (core::f64::consts::TAU / 1e6);
+            let radius = 3000.0 + 5.0 * f64::from(i % 7);
+            DVec2::new(radius * angle.cos(), radius * angle.sin())
+        })
+        .collect();
+    let shape = Shape::polygon([&points[..]], FillRule::NonZero).unwrap().unwrap();
+    let inside = IntRect::new(-32, -32, 32, 32);
+    assert_eq!(shape.covers(inside), Cover::Full);
+    let border = IntRect::new(2980, -32, 3044, 32);
+    let found = areas(Some(shape.clone()), border);
+    assert!(found.0.len() > 64 * 20 && found.0.len() < 64 * 64);
+    let pattern = SamplePattern::standard(16).unwrap();
+    let sampled = raster(&shape, border, &pattern);
+    for (at, area) in &found.0 {
+        let mask = sampled.masks.get(at).map_or(0, |m| m.count_ones());
+        assert!((f64::from(mask) / 16.0 - f64::from(*area)).abs() < 0.4, "{at:?}");
+    }
+}

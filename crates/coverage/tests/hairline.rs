@@ -13,13 +13,17 @@ fn pixels(a: [f64; 2], b: [f64; 2], clip: IntRect) -> Vec<(i32, i32)> {
 }
 
 #[test]
-fn it_steps_from_the_lower_end_and_takes_floors() {
+fn it_steps_from_the_left_end_and_takes_floors() {
     assert_eq!(pixels([1.5, 2.5], [4.5, 4.0], CLIP), [(1, 2), (2, 3), (3, 3), (4, 4)]);
     assert_eq!(pixels([4.5, 4.0], [1.5, 2.5], CLIP), [(1, 2), (2, 3), (3, 3), (4, 4)]);
     assert_eq!(pixels([2.0, 1.0], [2.9, 3.5], CLIP), [(2, 1), (2, 2), (2, 3)]);
+    // A steep line that rises to the right starts at its lower, left end.
+    assert_eq!(pixels([2.9, 1.0], [2.0, 3.5], CLIP), [(2, 1), (2, 2), (2, 3)]);
+    assert_eq!(pixels([4.0, 1.2], [3.0, 4.0], CLIP), [(3, 2), (3, 3), (3, 4)]);
     assert_eq!(pixels([7.2, 8.9], [7.2, 8.9], CLIP), [(7, 8)]);
-    // The last step must not pass the far end.
-    assert_eq!(pixels([0.9, 0.0], [2.8, 0.0], CLIP), [(0, 0), (1, 0)]);
+    // The last step must not pass the far end, but a level line fills its last column.
+    assert_eq!(pixels([0.9, 0.0], [2.8, 0.5], CLIP), [(0, 0), (1, 0)]);
+    assert_eq!(pixels([0.9, 0.0], [2.8, 0.0], CLIP), [(0, 0), (1, 0), (2, 0)]);
 }
 
 #[test]

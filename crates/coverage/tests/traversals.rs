@@ -48,9 +48,13 @@ proptest! {
     #[test]
     fn polygons_agree_with_their_definition(
         contours in prop::collection::vec(prop::collection::vec(point(18), 3..9), 1..3),
+        far in prop::sample::select(vec![1, 1, 300, 20_000]),
         rule in rule(),
         pattern in any_pattern(),
     ) {
+        let grown = |p: [i64; 2]| p.map(|c| (c * far).clamp(-(1 << 29), 1 << 29));
+        let contours: Vec<Vec<_>> =
+            contours.into_iter().map(|c| c.into_iter().map(grown).collect()).collect();
         let Some(shape) = polygon(&contours, rule) else { return Ok(()) };
         let definition = by(Traversal::BoundingBox, &shape, WINDOW, &pattern);
         prop_assert_eq!(&by(Traversal::Scanline, &shape, WINDOW, &pattern), &definition);

@@ -181,7 +181,7 @@ impl Reader<'_, '_> {
             .textures
             .find(&texid, node.range().start)
             .ok_or_else(|| extension::unknown_texid(&texid))?;
-        let image = self.images.load(&texture.filename, texture.wrap)?;
+        let image = texture.load(self.images)?;
         let uvs = self.align_corners(uvs, image);
         self.commands.push(Command::Textured(scumble_scene::TexturedTriangle {
             points,

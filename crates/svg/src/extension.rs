@@ -1,11 +1,13 @@
 //! The elements that SVG does not have: `texture`, `textri` and `colortri`.
 
 use crate::error::ErrorKind;
+use crate::images::Images;
 use crate::numbers;
 use roxmltree::Node;
 use scumble_geometry::DVec2;
 use scumble_pixel::Straight;
-use scumble_scene::ImageWrap;
+use scumble_scene::{ImageId, ImageWrap};
+use std::cell::Cell;
 use std::collections::HashMap;
 
 /// The namespace of our attributes, usually with the prefix `sc`.
@@ -66,12 +68,26 @@ pub(crate) struct Textures {
 }
 
 /// One `texture`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub(crate) struct Texture {
-    pub(crate) filename: String,
-    pub(crate) wrap: ImageWrap,
+    filename: String,
+    wrap: ImageWrap,
     /// Where it stands in the document, in bytes.
-    pub(crate) offset: usize,
+    offset: usize,
+    /// The image, once it was loaded: a name can be a data URI, too long to look up each time.
+    image: Cell<Option<ImageId>>,
+}
+
+impl Texture {
+    /// The image, loaded when it is first asked for.
+    pub(crate) fn load(&self, images: &mut Images<'_>) -> Result<ImageId, ErrorKind> {
+        if let Some(image) = self.image.get() {
+            return Ok(image);
+        }
+        let image = images.load(&self.filename, self.wrap)?;
+        self.image.set(Some(image));
+        Ok(image)
+    }
 }
 
 impl Textures {
@@ -90,7 +106,8 @@ impl Textures {
     /// The texture that `texid` means at byte `offset` of the document.
     pub(crate) fn find(&self, texid: &str, offset: usize) -> Option<&Texture> {
         let all = self.by_id.get(texid)?;
-        all.iter().rev().find(|t| t.offset < offset).or_else(|| all.first())
+        let before = all.partition_point(|t| t.offset < offset);
+        all.get(before.saturating_sub(1))
     }
 }
 
@@ -103,7 +120,7 @@ fn read_texture<'a>(node: Node<'a, '_>, offset: usize) -> Result<(&'a str, Textu
         Some("mirror") => ImageWrap::Mirror,
         Some(_) => return Err(faulty(node, "`wrap` is not `clamp`, `repeat` or `mirror`")),
     };
-    Ok((texid, Texture { filename, wrap, offset }))
+    Ok((texid, Texture { filename, wrap, offset, image: Cell::new(None) }))
 }
 
 /// Three points: six numbers.

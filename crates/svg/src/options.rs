@@ -73,7 +73,7 @@ impl core::fmt::Debug for Options<'_> {
 }
 
 /// What a document may cost before reading stops with an error. The defaults let every sensible
-/// document pass and keep a hostile one within a second or two and about a gigabyte.
+/// document pass and keep a hostile one within some seconds and about two gigabytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Limits {

@@ -116,6 +116,29 @@ fn depth_is_bounded() {
 }
 
 #[test]
+fn however_deep_the_limit_allows_the_stack_suffices() {
+    let mut limits = Limits::default();
+    limits.max_depth = 10_000;
+    for open in ["<g opacity='.5'>", "<svg width='9' height='9' viewBox='0 0 2 2'>"] {
+        let close = if open.starts_with("<g") { "</g>" } else { "</svg>" };
+        let text =
+            svg_text(&(open.repeat(505) + "<rect width='1' height='1'/>" + &close.repeat(505)));
+        let run = move || {
+            let options = Options::default().with_profile(ProfileChoice::Svg).with_limits(limits);
+            parse(text.as_bytes(), &options)
+        };
+        // What a spawned thread gets.
+        let thread = std::thread::Builder::new().stack_size(2 << 20).spawn(run).unwrap();
+        assert!(thread.join().unwrap().is_ok());
+    }
+    let deep = "<g>".repeat(600) + &"</g>".repeat(600);
+    let options = Options::default().with_limits(limits);
+    assert!(parse(svg_text(&deep).as_bytes(), &options).unwrap_err().is_limit());
+    let course = parse(course_text(&deep).as_bytes(), &options.with_profile(ProfileChoice::Course));
+    assert!(course.is_ok());
+}
+
+#[test]
 fn use_that_refers_to_itself() {
     for inside in [
         "<use id='a' href='#a'/>",
@@ -196,9 +219,35 @@ fn attributes_and_elements_without_end() {
         assert!(error(profile, &course_text(&format!("<g{attributes}/>"))).is_limit());
         assert!(error(profile, &course_text(&"<g/>".repeat(1_000_001))).is_limit());
     }
-    let rules = "p q{fill:red}".repeat(20_000);
-    let text = svg_text(&format!("<style>{rules}</style>{}", "<g/>".repeat(20_000)));
-    assert!(error(ProfileChoice::Svg, &text).is_limit());
+}
+
+#[test]
+fn selectors_that_take_forever() {
+    let many = svg_text(&format!(
+        "<style>{}</style>{}",
+        "g q{fill:red}".repeat(40_000),
+        "<g/>".repeat(40_000)
+    ));
+    let deep = svg_text(&format!(
+        "<style>nothing {} {{fill:red}}</style>{}{}",
+        "* ".repeat(20),
+        "<g>".repeat(200),
+        "</g>".repeat(200)
+    ));
+    let long =
+        svg_text(&format!("<style>{} *{{}}</style>{}", "*+".repeat(9_999), "<g/>".repeat(9_999)));
+    for text in [many, deep, long] {
+        assert!(error(ProfileChoice::Svg, &text).is_limit());
+    }
+    // What is allowed comes back in time.
+    let text = svg_text(&format!(
+        "<style>{}</style>{}{}{}",
+        "nothing * * * *{fill:red}".repeat(60),
+        "<g>".repeat(30),
+        "<g/>".repeat(100),
+        "</g>".repeat(30)
+    ));
+    assert!(bounded(move || read(ProfileChoice::Svg, &text)).is_ok());
 }
 
 #[test]
@@ -213,6 +262,40 @@ fn very_many_elements_are_read() {
     for profile in BOTH {
         let text = text.clone();
         assert_eq!(bounded(move || read(profile, &text)).unwrap().scene.commands.len(), 1);
+    }
+}
+
+#[test]
+fn gradients_in_a_chain() {
+    let chain = |n: usize| -> String {
+        let link = |i: usize| {
+            format!(
+                "<linearGradient id='g{i}' href='#g{}'/><rect width='1' height='1' fill='url(#g{i})'/>",
+                i + 1
+            )
+        };
+        (0..n).map(link).collect::<String>()
+            + &format!("<linearGradient id='g{n}'><stop stop-color='red'/></linearGradient>")
+    };
+    assert!(error(ProfileChoice::Svg, &svg_text(&chain(20_000))).is_limit());
+    let text = svg_text(&chain(1_500));
+    let parsed = bounded(move || read(ProfileChoice::Svg, &text)).unwrap();
+    assert_eq!(parsed.scene.commands.len(), 1_500);
+    let circle = "<linearGradient id='a' href='#b'/><linearGradient id='b' href='#a'/>";
+    let circles = circle.to_owned() + "<rect width='1' height='1' fill='url(#a)'/>";
+    assert!(svg(&circles).scene.commands.is_empty());
+}
+
+#[test]
+fn many_uses_of_a_large_texture() {
+    let texture = |filename: &str| format!("<texture texid='t' filename='{filename}'/>");
+    let large = texture(&(data_uri("image/png", &png(4, 2)) + &" ".repeat(300_000)));
+    let triangles = "<textri texid='t' points='0 0 1 0 0 1' uvs='0 0 1 0 0 1'/>".repeat(50_000);
+    let text = course_text(&(triangles + &large + &texture("a.png").repeat(50_000)));
+    for profile in BOTH {
+        let text = text.clone();
+        let parsed = bounded(move || read(profile, &text)).unwrap();
+        assert_eq!((parsed.scene.commands.len(), parsed.scene.images.len()), (50_000, 1));
     }
 }
 
@@ -363,4 +446,73 @@ fn broken_references_of_every_kind() {
     let parsed = svg(inside);
     assert_eq!(parsed.profile, Profile::Svg);
     assert!(parsed.scene.commands.len() >= 3);
+}
+
+#[test]
+fn styles_of_every_oddity() {
+    for selector in [
+        "> g",
+        "+ g",
+        ", g",
+        "g >",
+        "g > > g",
+        "*",
+        "",
+        ":first-child",
+        ".",
+        "#",
+        "[",
+        "[a",
+        "[a=",
+        "g:",
+        "g::before",
+        "g:lang(en)",
+        ":not(g)",
+        "~ g",
+        "g ~ g",
+        "g > + g",
+        "@media",
+        "é",
+        "\\",
+        "g,,g",
+        "{",
+        "} g",
+        "!",
+        "--a",
+        "g/**/g",
+        "<!--",
+        "|g",
+        "*|g",
+        "a|b",
+        "&amp;",
+        "1",
+        "%",
+    ] {
+        for declarations in [
+            "fill:red",
+            "",
+            ":",
+            ";",
+            "fill",
+            "fill:",
+            "fill:;",
+            "a:b!important;c",
+            "*fill:red",
+            "fill:'",
+            "fill:url(",
+            "fill:(",
+            "font:x",
+            "font:",
+            "font:12px a",
+            "marker:x",
+            "{}",
+            "@a;",
+        ] {
+            let inside = format!(
+                "<style>{} {{ {declarations} }} g{{fill:blue}}</style><g><g style=\"{declarations}\"><rect width='1' height='1'/></g></g>",
+                selector.replace('<', "&lt;")
+            );
+            svg(&inside);
+        }
+    }
 }

@@ -107,6 +107,11 @@ fn styles_cascade() {
         ),
         [0.0, 0.0, 0.0, 1.0]
     );
+    let commented =
+        "<style><!-- rect{fill:blue} -->rect{fill:red}</style><rect width='1' height='1'/>";
+    assert_eq!(color(commented), red);
+    let other = "<style type='text/less'>rect{fill:red}</style><rect width='1' height='1'/>";
+    assert_eq!(color(other), [0.0, 0.0, 0.0, 1.0]);
     assert_eq!(only_fill("<path fill-rule='evenodd' d='M0 0h1v1'/>").rule, FillRule::EvenOdd);
     let half = color("<rect width='1' height='1' fill='red' fill-opacity='.5'/>");
     assert_eq!(half, [1.0, 0.0, 0.0, 0.5]);

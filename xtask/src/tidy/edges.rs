@@ -1,7 +1,6 @@
 //! Which crate may depend on which: the table of docs/architecture.md, as data.
 
 use super::Violation;
-use crate::commands::cargo;
 use serde_json::Value;
 
 /// A crate of ours and what its normal and build dependencies may be.
@@ -74,14 +73,6 @@ const ROOMS: [Room; 12] = [
 ];
 
 const EVERYWHERE: [&str; 1] = ["thiserror"];
-
-/// The workspace as cargo sees it.
-pub(super) fn metadata() -> Result<Value, String> {
-    let output = cargo(["metadata", "--format-version", "1", "--no-deps"])
-        .output()
-        .map_err(|e| format!("cargo metadata could not be started: {e}"))?;
-    serde_json::from_slice(&output.stdout).map_err(|e| format!("cargo metadata: {e}"))
-}
 
 /// Holds every member of the workspace to its row of the table.
 pub(super) fn check(metadata: &Value) -> Vec<Violation> {

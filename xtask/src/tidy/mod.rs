@@ -10,6 +10,7 @@ mod source;
 mod text;
 
 use crate::Outcome;
+use crate::commands::metadata;
 use std::fmt;
 use std::path::Path;
 use std::process::Command;
@@ -39,7 +40,7 @@ impl fmt::Display for Violation {
 /// Checks the whole tree and prints every violation.
 pub(crate) fn run(root: &Path) -> Outcome {
     let files = tracked(root)?;
-    let mut found = edges::check(&edges::metadata()?);
+    let mut found = edges::check(&metadata()?);
     found.extend(budget::check(root, &files));
     found.extend(budget::licences(&files));
     for file in &files {

@@ -28,6 +28,13 @@ const NOT_IN_LIBRARIES: [(&str, &str); 8] = [
     ("eprint!", "libraries print nothing"),
 ];
 
+/// Methods of floats whose last bit differs between platforms. What a library computes reaches the
+/// bytes of a picture sooner or later; ours have their own series.
+const INEXACT: [&str; 18] = [
+    "sin", "cos", "tan", "sin_cos", "asin", "acos", "atan", "atan2", "exp", "exp2", "exp_m1", "ln",
+    "ln_1p", "log", "log2", "log10", "powf", "hypot",
+];
+
 /// What stands in no crate's finished code.
 const NOWHERE: [&str; 4] = ["unsafe", "dbg!", "todo!", "unimplemented!"];
 
@@ -46,6 +53,10 @@ pub(super) fn check(file: &str, content: &str) -> Vec<Violation> {
         }
         if !library || in_tests[index] {
             continue;
+        }
+        for method in INEXACT.iter().filter(|m| line.contains(&format!(".{m}("))) {
+            let message = format!("`{method}` is not the same on every platform");
+            found.push(Violation::new(file, index + 1, message));
         }
         for (word, why) in NOT_IN_LIBRARIES.iter().filter(|(w, _)| has_macro_or_word(line, w)) {
             found.push(Violation::new(file, index + 1, format!("`{word}`: {why}")));
@@ -156,6 +167,16 @@ mod tests {
             let tested = format!("#[cfg(test)]\nmod tests {{\n{text}}}\n");
             assert!(messages("crates/x/src/a.rs", &tested).is_empty(), "{word}");
         }
+    }
+
+    #[test]
+    fn functions_that_differ_between_platforms_are_found_in_libraries() {
+        for method in INEXACT {
+            let text = format!("fn f(x: f64) -> f64 {{ x.{method}(1.0) }}\n");
+            assert_eq!(messages("crates/x/src/a.rs", &text).len(), 1, "{method}");
+            assert!(messages("crates/x/src/tests.rs", &text).is_empty(), "{method}");
+        }
+        assert!(messages("crates/x/src/a.rs", "fn f(x: u32) { x.ilog2(); }\n").is_empty());
     }
 
     #[test]

@@ -132,8 +132,11 @@ fn scaled(text: &str, base: u64) -> Result<u64, String> {
 fn fraction(digits: &str, unit: u64) -> Result<u64, String> {
     let wrong = || "not a number such as 4096, 512M or 1.5G".to_owned();
     let (whole, part) = digits.split_once('.').ok_or_else(wrong)?;
-    let plain = |s: &str| !s.is_empty() && s.len() <= 9 && s.bytes().all(|b| b.is_ascii_digit());
-    if !plain(whole) || !plain(part) {
+    // So few digits that nothing below overflows.
+    let plain = |s: &str, most: usize| {
+        (1..=most).contains(&s.len()) && s.bytes().all(|b| b.is_ascii_digit())
+    };
+    if !plain(whole, 12) || !plain(part, 9) {
         return Err(wrong());
     }
     let number = |s: &str| s.parse::<u128>().map_err(|_| wrong());
@@ -177,6 +180,20 @@ mod tests {
         }
         assert_eq!(bytes("18446744073709551615K"), Err("too large".to_owned()));
         assert_eq!(count("999999999.9T"), Err("too large".to_owned()));
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn whole_numbers_of_units_are_exact(n in 1_u64..1 << 30, part in 0_u64..1000) {
+            assert_eq!(bytes(&format!("{n}M")), Ok(n << 20));
+            assert_eq!(count(&format!("{n}.{part:03}K")), Ok(n * 1000 + part));
+        }
+
+        #[test]
+        fn any_text_is_read_or_refused(text in "[-+0-9.,eKMGiB%# ½a-z]{0,24}") {
+            let _ = (bytes(&text), count(&text), crop(&text), background(&text));
+            let _ = (zoom(&text), ratio(&text), samples(&text), threads(&text), length(&text));
+        }
     }
 
     #[test]

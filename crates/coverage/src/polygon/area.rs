@@ -46,8 +46,6 @@ pub(super) struct Sweep {
 #[derive(Debug, Clone, Copy)]
 struct Live {
     piece: Piece,
-    slope: Slope,
-    start: f64,
     end: f64,
     winding: i32,
     /// What it bounds, and since which height.
@@ -149,8 +147,6 @@ impl Live {
         let (start, end) = (f64::from(start) / 256.0, f64::from(end) / 256.0);
         (start < end).then(|| Self {
             piece: Piece::new(slope, start),
-            slope,
-            start,
             end,
             winding: edge.winding,
             weight: 0,
@@ -185,7 +181,7 @@ impl Sweep {
         self.left_since = f64::from(y);
         let grain = (active.len() / CROWD).max(1).next_power_of_two().min(256) as i32;
         self.waiting.extend(active.iter().filter_map(|e| Live::new(e, y, grain)));
-        self.waiting.sort_unstable_by(|a, b| b.start.total_cmp(&a.start));
+        self.waiting.sort_unstable_by(|a, b| b.piece.start().total_cmp(&a.piece.start()));
     }
 
     /// Drops the edges that end at `top` and takes in those that begin there.
@@ -196,22 +192,22 @@ impl Sweep {
             }
             e.end > top
         });
-        while let Some(edge) = self.waiting.pop_if(|e| e.start <= top) {
+        while let Some(edge) = self.waiting.pop_if(|e| e.piece.start() <= top) {
             self.live.push(edge);
         }
     }
 
     /// The next height at which an edge begins or ends, at most `limit`.
     fn next_event(&self, limit: f64) -> f64 {
-        let begin = self.waiting.last().map_or(limit, |e| e.start);
+        let begin = self.waiting.last().map_or(limit, |e| e.piece.start());
         self.live.iter().fold(limit.min(begin), |y, e| y.min(e.end))
     }
 
     /// Sorts the edges from left to right at `top`, those that meet there as they go on.
     fn order(&mut self, top: f64, bottom: f64) {
         for e in &mut self.live {
-            e.x = e.slope.at(top);
-            e.next_x = e.slope.at(bottom);
+            e.x = e.piece.at(top);
+            e.next_x = e.piece.at(bottom);
         }
         sort(&mut self.live, |a, b| a.x.total_cmp(&b.x).then(a.next_x.total_cmp(&b.next_x)));
     }

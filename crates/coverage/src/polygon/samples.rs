@@ -1,25 +1,35 @@
 //! Sampled polygons: exact crossings of the edges with every row of samples.
 //!
-//! A row of samples at height Y meets an edge at the real x = x₀ + (Y − y₀)·Δx/Δy; the samples at
-//! ⌈x⌉ and beyond have it on their left. Each crossing adds its ±1 to the first such pixel of each
-//! sample, the pixels that got anything are marked, and one sweep over the marked pixels sums the
-//! winding numbers of all samples side by side. Between marked pixels nothing changes, so whole runs
-//! are handed on at once, and nothing is ever sorted along x.
+//! A sample has an edge on its left if it stands at or right of the crossing with its row. Each
+//! edge adds its ±1 to the first pixel of each sample where that is so, the pixels that got anything are
+//! marked, and one sweep over the marked pixels sums the winding numbers of all samples side by
+//! side. Between marked pixels nothing changes, so whole runs are handed on at once, and nothing is
+//! ever sorted along x.
+//!
+//! With one sample the crossing is a division, x = ⌈x₀ + (Y − y₀)·Δx/Δy⌉. With more, the few
+//! pixels that the edge passes through in a row test all their samples side by side instead.
 
 use super::rows::{PolygonScratch, Rows};
 use super::{Polygon, PolygonEdge};
 use crate::traversal::emit;
 use crate::{SampleMask, SamplePattern, Sink};
 use alloc::vec::Vec;
-use scumble_geometry::IntRect;
+use fearless_simd::{Level, Simd, dispatch, i32x16, prelude::*};
+use scumble_geometry::{FillRule, IntRect};
 
 /// Cells (pixels × samples) of a row's winding buffer: what comfortably stays in the cache.
 const ROW_CELLS: i32 = 1 << 16;
 
+/// Beyond this |Δx| + |Δy| (in 1/256 pixel) an edge needs 64 bits inside a pixel and is crossed by division.
+const NARROW: i64 = 1 << 22;
+
+/// Edge values beyond this keep their sign over the whole pixel, so they can be cut to it.
+const LIMIT: i64 = (1 << 30) - 1;
+
 /// One row of pixels: changes of the winding number.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RowWinding {
-    /// Per pixel and sample. All zero between rows.
+    /// Per pixel and sample, the samples filled up to the stride. All zero between rows.
     change: Vec<i32>,
     /// One bit per pixel: whether any of its changes was written.
     marked: Vec<u64>,
@@ -28,12 +38,17 @@ pub(super) struct RowWinding {
 }
 
 impl RowWinding {
-    fn resize(&mut self, width: usize, samples: usize) {
+    fn resize(&mut self, width: usize, stride: usize) {
         // Everything is zero between calls, so only growth needs filling.
-        self.change.resize(self.change.len().max(width * samples), 0);
+        self.change.resize(self.change.len().max(width * stride), 0);
         self.marked.resize(width.div_ceil(64), 0);
         self.winding.clear();
-        self.winding.resize(samples, 0);
+        self.winding.resize(stride, 0);
+    }
+
+    #[inline(always)]
+    fn mark(&mut self, column: usize) {
+        self.marked[column / 64] |= 1 << (column % 64);
     }
 }
 
@@ -43,15 +58,18 @@ impl Polygon {
         &self,
         region: IntRect,
         pattern: &SamplePattern,
+        level: Level,
         scratch: &mut PolygonScratch,
         sink: &mut impl Sink,
     ) {
-        let width = (ROW_CELLS / pattern.len() as i32).max(64);
+        let stride = if pattern.len() == 1 { 1 } else { pattern.len().next_multiple_of(16) };
+        let width = ROW_CELLS / stride as i32;
         let mut x = region.x0;
         while x < region.x1 {
             let end = region.x1.min(x + width);
-            let strip = IntRect { x0: x, x1: end, ..region };
-            Strip { polygon: self, rect: strip, pattern }.rasterize(scratch, sink);
+            let rect = IntRect { x0: x, x1: end, ..region };
+            let strip = Strip { polygon: self, rect, pattern, stride };
+            dispatch!(level, simd => strip.rasterize(simd, scratch, sink));
             x = end;
         }
     }
@@ -78,13 +96,15 @@ struct Strip<'a> {
     polygon: &'a Polygon,
     rect: IntRect,
     pattern: &'a SamplePattern,
+    stride: usize,
 }
 
 impl Strip<'_> {
-    fn rasterize(&self, scratch: &mut PolygonScratch, sink: &mut impl Sink) {
+    #[inline(always)]
+    fn rasterize<S: Simd>(&self, simd: S, scratch: &mut PolygonScratch, sink: &mut impl Sink) {
         let PolygonScratch { rows, winding, .. } = scratch;
         let rect = self.rect;
-        winding.resize((rect.x1 - rect.x0) as usize, self.pattern.len());
+        winding.resize((rect.x1 - rect.x0) as usize, self.stride);
         rows.start(self.polygon, rect);
         let mut y = rect.y0;
         while y < rect.y1 {
@@ -99,9 +119,15 @@ impl Strip<'_> {
             }
             self.start_row(y, rows, &mut winding.winding);
             for edge in &rows.active {
-                self.add(edge, y, winding);
+                let run = i64::from(edge.x1) - i64::from(edge.x0);
+                let rise = i64::from(edge.y1) - i64::from(edge.y0);
+                if self.stride == 1 || run.abs() + rise > NARROW {
+                    self.add_crossings(edge, y, winding);
+                } else {
+                    self.add_tests(simd, edge, y, winding);
+                }
             }
-            self.sweep(y, winding, sink);
+            self.sweep(simd, y, winding, sink);
             y += 1;
         }
     }
@@ -110,17 +136,16 @@ impl Strip<'_> {
     fn start_row(&self, y: i32, rows: &Rows, winding: &mut [i32]) {
         winding.fill(rows.left);
         for &(height, change) in rows.steps() {
-            for (w, o) in winding.iter_mut().zip(self.pattern.offsets()) {
-                if y * 256 + i32::from(o[1]) >= height {
+            for (w, o) in winding.iter_mut().zip(&self.pattern.lanes()[1]) {
+                if y * 256 + o >= height {
                     *w += change;
                 }
             }
         }
     }
 
-    /// Adds the crossings of one edge with the samples of row `y`.
-    fn add(&self, edge: &PolygonEdge, y: i32, row: &mut RowWinding) {
-        let samples = self.pattern.len();
+    /// Adds one edge to row `y`: a division per row of samples.
+    fn add_crossings(&self, edge: &PolygonEdge, y: i32, row: &mut RowWinding) {
         for level in self.pattern.rows() {
             let height = y * 256 + i32::from(level.y);
             if height < edge.y0 || height >= edge.y1 {
@@ -131,24 +156,80 @@ impl Strip<'_> {
                 let s = usize::from(s);
                 // The first pixel whose sample s lies at x or beyond.
                 let pixel = (x - i32::from(self.pattern.offsets()[s][0]) + 255) >> 8;
-                let column = pixel - self.rect.x0;
-                if column <= 0 {
-                    row.winding[s] += edge.winding;
-                } else if pixel < self.rect.x1 {
-                    let column = column as usize;
-                    row.change[column * samples + s] += edge.winding;
-                    row.marked[column / 64] |= 1 << (column % 64);
+                if pixel < self.rect.x1 {
+                    let column = (pixel - self.rect.x0).max(0) as usize;
+                    row.change[column * self.stride + s] += edge.winding;
+                    row.mark(column);
                 }
             }
         }
     }
 
+    /// Adds one edge to row `y`: a test of all samples in each pixel that it can pass through.
+    #[inline(always)]
+    fn add_tests<S: Simd>(&self, simd: S, edge: &PolygonEdge, y: i32, row: &mut RowWinding) {
+        let (run, rise) = (edge.x1 - edge.x0, edge.y1 - edge.y0);
+        let (first, last) = self.columns(edge, y);
+        let start = i64::from(rise) * (i64::from(first) * 256 - i64::from(edge.x0))
+            - i64::from(run) * (i64::from(y) * 256 - i64::from(edge.y0));
+        let zero = i32x16::splat(simd, 0);
+        for chunk in (0..self.stride).step_by(16) {
+            let xs = i32x16::from_slice(simd, &self.pattern.lanes()[0][chunk..chunk + 16]);
+            let ys = i32x16::from_slice(simd, &self.pattern.lanes()[1][chunk..chunk + 16]);
+            // Half-open in y, as ever.
+            let top = ys.simd_ge(i32x16::splat(simd, edge.y0.saturating_sub(y * 256)));
+            let bottom = ys.simd_lt(i32x16::splat(simd, edge.y1.saturating_sub(y * 256)));
+            let all = top.select(bottom.select(i32x16::splat(simd, edge.winding), zero), zero);
+            let offsets = xs * i32x16::splat(simd, rise) - ys * i32x16::splat(simd, run);
+            let mut before = zero;
+            let mut value = start;
+            for pixel in first..=last + 1 {
+                if pixel >= self.rect.x1 {
+                    break;
+                }
+                let corner = i32x16::splat(simd, value.clamp(-LIMIT, LIMIT) as i32);
+                let now = if pixel > last {
+                    all
+                } else {
+                    (offsets + corner).simd_ge(zero).select(all, zero)
+                };
+                let column = (pixel - self.rect.x0) as usize;
+                let change = now - before;
+                if change.simd_ne(zero).any_true() {
+                    let at = column * self.stride + chunk;
+                    let cells = &mut row.change[at..at + 16];
+                    (i32x16::from_slice(simd, cells) + change).store_slice(cells);
+                    row.mark(column);
+                }
+                before = now;
+                value += i64::from(rise) * 256;
+            }
+        }
+    }
+
+    /// The pixels of row `y` that the edge can pass through: the first, held to the clip's left side, and
+    /// the last, no further left than one before it.
+    #[inline(always)]
+    fn columns(&self, edge: &PolygonEdge, y: i32) -> (i32, i32) {
+        let slope =
+            (f64::from(edge.x1) - f64::from(edge.x0)) / (f64::from(edge.y1) - f64::from(edge.y0));
+        let top = edge.y0.max(y * 256) - edge.y0;
+        let bottom = edge.y1.min(y * 256 + 255) - edge.y0;
+        let (a, b) = (f64::from(top) * slope, f64::from(bottom) * slope);
+        // A unit to either side is more than the rounding.
+        let low = edge.x0 + a.min(b) as i32 - 2;
+        let high = edge.x0 + a.max(b) as i32 + 2;
+        ((low >> 8).max(self.rect.x0), (high >> 8).clamp(self.rect.x0 - 1, self.rect.x1))
+    }
+
     /// Sums the changes from left to right, and empties them.
-    fn sweep(&self, y: i32, row: &mut RowWinding, sink: &mut impl Sink) {
-        let samples = self.pattern.len();
-        let mut out = Emitter { y, full: self.pattern.full_mask(), run: None, sink };
+    #[inline(always)]
+    fn sweep<S: Simd>(&self, simd: S, y: i32, row: &mut RowWinding, sink: &mut impl Sink) {
+        let full = self.pattern.full_mask();
+        let mut out = Emitter { y, full, run: None, sink };
         let mut from = self.rect.x0;
-        let mut mask = self.mask(&row.winding);
+        // The samples at the left side, before any change.
+        let mut mask = SampleMask(self.take(simd, 0, row, false) & full.0);
         for word in 0..row.marked.len() {
             let mut bits = core::mem::take(&mut row.marked[word]);
             while bits != 0 {
@@ -156,11 +237,7 @@ impl Strip<'_> {
                 bits &= bits - 1;
                 let x = self.rect.x0 + column as i32;
                 out.emit(from, x, mask);
-                let change = &mut row.change[column * samples..][..samples];
-                for (w, c) in row.winding.iter_mut().zip(change) {
-                    *w += core::mem::take(c);
-                }
-                mask = self.mask(&row.winding);
+                mask = SampleMask(self.take(simd, column, row, true) & full.0);
                 from = x;
             }
         }
@@ -168,9 +245,39 @@ impl Strip<'_> {
         out.flush();
     }
 
-    fn mask(&self, winding: &[i32]) -> SampleMask {
-        let bit = |(s, &w): (usize, &i32)| u64::from(self.polygon.is_inside(w)) << s;
-        SampleMask(winding.iter().enumerate().map(bit).fold(0, |m, b| m | b))
+    /// Adds the changes of a pixel to the winding numbers and empties them (if `change`), and tells which
+    /// samples are inside.
+    #[inline(always)]
+    fn take<S: Simd>(&self, simd: S, column: usize, row: &mut RowWinding, change: bool) -> u64 {
+        if self.stride == 1 {
+            if change {
+                row.winding[0] += core::mem::take(&mut row.change[column]);
+            }
+            return u64::from(self.polygon.is_inside(row.winding[0]));
+        }
+        let zero = i32x16::splat(simd, 0);
+        // All bits tell whether a number is zero, the lowest one whether it is odd.
+        let relevant = i32x16::splat(
+            simd,
+            match self.polygon.rule {
+                FillRule::NonZero => -1,
+                FillRule::EvenOdd => 1,
+            },
+        );
+        let mut mask = 0;
+        for chunk in (0..self.stride).step_by(16) {
+            let numbers = &mut row.winding[chunk..chunk + 16];
+            let mut winding = i32x16::from_slice(simd, numbers);
+            if change {
+                let at = column * self.stride + chunk;
+                let cells = &mut row.change[at..at + 16];
+                winding += i32x16::from_slice(simd, cells);
+                winding.store_slice(numbers);
+                zero.store_slice(cells);
+            }
+            mask |= (winding & relevant).simd_ne(zero).to_bitmask() << chunk;
+        }
+        mask
     }
 }
 

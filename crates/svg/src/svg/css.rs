@@ -102,7 +102,8 @@ fn item_end(css: &str) -> usize {
     css.len()
 }
 
-fn without_comments(css: &str) -> String {
+/// The text without `/* … */`, each of which leaves a space.
+pub(super) fn without_comments(css: &str) -> String {
     let mut out = String::with_capacity(css.len());
     let mut rest = css;
     while let Some(start) = rest.find("/*") {

@@ -1,6 +1,7 @@
 //! How large and deep a document becomes when `use` and markers are expanded, found without
 //! expanding them.
 
+use super::{selectors, sheet};
 use crate::Limits;
 use crate::course::href;
 use crate::error::{ErrorKind, Fault};
@@ -11,8 +12,11 @@ use std::collections::HashMap;
 /// usvg works with recursion; deeper than this, a thread of 2 MiB may not be enough for it.
 const MAX_DEPTH: usize = 512;
 
-/// Selectors tried on elements, at most; a style sheet can make them rules times elements.
-const MAX_STYLE_WORK: u64 = 300_000_000;
+/// Steps for trying all selectors on all elements, at most: seconds.
+const MAX_STYLE_STEPS: u64 = 500_000_000;
+
+/// References from gradient to gradient that are followed, at most.
+const MAX_GRADIENT_STEPS: usize = 2_000_000;
 
 /// What an element costs with everything inside it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -27,7 +31,9 @@ struct Weight {
 
 /// Refuses documents that refer to themselves or grow beyond the limits.
 pub(super) fn check(root: Node<'_, '_>, limits: &Limits) -> Result<(), Fault> {
-    let weight = Graph::new(root).weigh(root)?;
+    let graph = Graph::new(root);
+    graph.check_gradients(root)?;
+    let weight = graph.weigh(root)?;
     let refuse = |message: String| Err(Fault::at(root.range().start, ErrorKind::Limit(message)));
     if weight.elements > limits.max_elements as u64 {
         return refuse(format!("`use` makes it more than {} elements", limits.max_elements));
@@ -40,19 +46,18 @@ pub(super) fn check(root: Node<'_, '_>, limits: &Limits) -> Result<(), Fault> {
     if weight.marked.saturating_mul(marker) > limits.max_elements as u64 {
         return refuse(format!("markers make it more than {} elements", limits.max_elements));
     }
-    let rules: u64 = style_sheets(root).map(|css| css.matches('{').count() as u64).sum();
-    if rules.saturating_mul(weight.elements) > MAX_STYLE_WORK {
-        return refuse(format!("{rules} style rules are too many for so many elements"));
+    let depth = weight.depth as u64;
+    let steps = style_sheets(root).map(|css| selectors::steps(css, depth));
+    let steps = steps.fold(0, u64::saturating_add).saturating_mul(weight.elements);
+    if steps > MAX_STYLE_STEPS {
+        return refuse("its style selectors could take too long for so many elements".into());
     }
     Ok(())
 }
 
 /// The texts of all `style` elements.
 fn style_sheets<'a>(root: Node<'a, '_>) -> impl Iterator<Item = &'a str> {
-    root.descendants()
-        .filter(|&n| svg_name(n) == Some("style"))
-        .flat_map(|n| n.children())
-        .filter_map(|n| n.text())
+    root.descendants().filter(|&n| svg_name(n) == Some("style")).flat_map(sheet::texts)
 }
 
 /// Elements of the largest marker.
@@ -115,6 +120,30 @@ impl<'a, 'input> Graph<'a, 'input> {
         Self { by_id, states: vec![State::Unseen; last + 1], all_marked }
     }
 
+    /// What the `href` of an element refers to.
+    fn target(&self, node: Node<'a, 'input>) -> Option<Node<'a, 'input>> {
+        let id = href(node)?.trim().strip_prefix('#')?;
+        self.by_id.get(id).copied()
+    }
+
+    /// Refuses long chains of gradients, because each is followed to its end from every link.
+    fn check_gradients(&self, root: Node<'a, 'input>) -> Result<(), Fault> {
+        let is_gradient =
+            |n: &Node<'_, '_>| matches!(svg_name(*n), Some("linearGradient" | "radialGradient"));
+        let count = root.descendants().filter(is_gradient).count();
+        let mut steps = 0;
+        for gradient in root.descendants().filter(is_gradient) {
+            let chain = core::iter::successors(Some(gradient), |&n| self.target(n));
+            // A chain that is longer than there are gradients goes in circles.
+            steps += chain.take(count).count();
+            if steps > MAX_GRADIENT_STEPS {
+                let message = "gradients refer to each other in too long chains".into();
+                return Err(Fault::at(gradient.range().start, ErrorKind::Limit(message)));
+            }
+        }
+        Ok(())
+    }
+
     /// The weight of `root`, depth first with an explicit stack.
     fn weigh(mut self, root: Node<'a, 'input>) -> Result<Weight, Fault> {
         let mut stack = vec![self.open(root, false)];
@@ -163,11 +192,7 @@ impl<'a, 'input> Graph<'a, 'input> {
         let vertices = vertices(node, name);
         let weight =
             Weight { elements: 1, depth: 1, vertices, marked: if marked { vertices } else { 0 } };
-        let target = (name == "use")
-            .then(|| href(node))
-            .flatten()
-            .and_then(|href| href.trim().strip_prefix('#'))
-            .and_then(|id| self.by_id.get(id).copied());
+        let target = if name == "use" { self.target(node) } else { None };
         let next =
             if is_dropped(name) || svg_name(node).is_none() { None } else { node.first_child() };
         Open { node, marked, next, target, weight }

@@ -14,6 +14,7 @@ mod paint;
 mod placeholder;
 mod quad;
 mod rewrite;
+mod selectors;
 mod sheet;
 mod walk;
 

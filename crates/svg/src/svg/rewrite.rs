@@ -130,7 +130,7 @@ impl Writer<'_, '_> {
             Plan::Drop => self.out.xml.push_str(NOTHING),
             Plan::Pattern => self.pattern(node),
             Plan::Style => {
-                let text: String = node.children().filter_map(|n| n.text()).collect();
+                let text: String = sheet::texts(node).collect();
                 let placeholders = &mut self.out.placeholders;
                 let css = sheet::rewrite_sheet(&text, offset, placeholders, self.warnings);
                 self.out.xml.push_str("<style>");
@@ -161,6 +161,7 @@ impl Writer<'_, '_> {
             "text" => Plan::Leaf(LeafKind::NotDrawn("`text` is not drawn")),
             "foreignObject" => Plan::Leaf(LeafKind::NotDrawn("`foreignObject` is not drawn")),
             "image" => self.image(node)?,
+            "style" if !matches!(node.attribute("type"), None | Some("text/css")) => Plan::Drop,
             "style" => Plan::Style,
             "pattern" => {
                 self.warnings.add(offset, "`pattern` is not drawn: mid-grey stands for it");

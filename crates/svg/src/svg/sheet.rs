@@ -4,6 +4,7 @@ use super::css::{self, Verdict};
 use super::placeholder::{LocalMap, Placeholders, map_matrix};
 use crate::transform;
 use crate::warning::Warnings;
+use roxmltree::Node;
 use scumble_geometry::{Affine, Homography};
 
 /// The SVG spelling of a map, or the placeholder of one that is not affine.
@@ -52,6 +53,13 @@ pub(super) fn undrawn(name: &str, value: &str) -> Option<&'static str> {
     } else {
         instead
     })
+}
+
+/// The texts in a `style` element; comments are none.
+pub(super) fn texts<'a, 'input: 'a>(
+    node: Node<'a, 'input>,
+) -> impl Iterator<Item = &'a str> + use<'a, 'input> {
+    node.children().filter(Node::is_text).filter_map(|n| n.text())
 }
 
 /// The text of a `style` element, with transforms in SVG's spelling and without what is not drawn.

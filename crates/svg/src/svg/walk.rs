@@ -218,7 +218,7 @@ impl Walker<'_, '_> {
                     .textures
                     .find(&triangle.texid, offset)
                     .ok_or_else(|| extension::unknown_texid(&triangle.texid))?;
-                let image = self.images.load(&texture.filename, texture.wrap)?;
+                let image = texture.load(self.images)?;
                 self.commands.push(Command::Textured(TexturedTriangle {
                     points: triangle.points,
                     uvs: triangle.uvs,
