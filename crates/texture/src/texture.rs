@@ -17,7 +17,8 @@ use scumble_pixel::{ImageView, Premul, WorkingSpace};
 
 /// An image made ready to be filtered: its pyramid, premultiplied, in the working space.
 ///
-/// Texels take 16 bytes each (four `f32`), and all levels together a third more than the base:
+/// Texels take 16 bytes each (four `f32`), rows of 32 and more are padded by up to seven of them, and
+/// all levels together take a third more than the base:
 /// [`Texture::memory_for`] says it before anything is allocated.
 #[derive(Debug, Clone)]
 pub struct Texture {
@@ -129,7 +130,7 @@ impl Texture {
     /// alpha in 0…1.
     ///
     /// Finite for every footprint. A centre that is not finite gives the mean of the texture; so
-    /// does a Jacobian that is not, or that has a component beyond 2⁴⁰, where the filter needs it.
+    /// does a Jacobian that is not, or that has a component beyond 2³⁰, where the filter needs it.
     #[must_use]
     pub fn sample(&self, f: &Footprint, s: &Sampler) -> Premul {
         let mut out = [Premul::TRANSPARENT];

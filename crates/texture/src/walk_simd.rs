@@ -36,10 +36,9 @@ impl Default for Scratch {
 
 /// Many walks, each in its level.
 ///
-/// First the weights of all, then the texels of all: within each phase nothing waits for what came
-/// just before, so the processor works on several pixels at once. (Both together, pixel after pixel,
-/// took nearly twice the time: the chain from an ellipse to its colour is longer than what the
-/// processor can look ahead.)
+/// First the weights of all, then the texels of all: within each phase little waits for what came
+/// just before, so the processor works on several pixels at once. The chain from an ellipse to its
+/// colour, pixel after pixel, is longer than what it can look ahead.
 #[inline(always)]
 pub(crate) fn walk_all<S: Simd>(
     simd: S,
