@@ -11,6 +11,9 @@ pub(crate) struct Level {
     pub(crate) height: usize,
     pub(crate) stride: usize,
     pub(crate) texels: Vec<[f32; 4]>,
+    /// What an index is cut to, per axis, before it is used: all ones, or a size less one where the
+    /// level is a tile whose sides are powers of two.
+    pub(crate) mask: [i32; 2],
     pub(crate) frame: Frame,
 }
 
@@ -25,7 +28,9 @@ pub(crate) struct Frame {
     /// where there is nothing to see. Anywhere else, an ellipse that is cut short of its length
     /// aliases: over a repeated texture it may well cross many repeats.
     pub(crate) most: [f64; 2],
-    /// The size within which a walk takes the short way; none where an index would not fit 31 bits.
+    /// From where and to where a walk takes the short way; nowhere if an index would not fit 31
+    /// bits, and everywhere over tiles that [`Level::mask`] serves.
+    pub(crate) low: f64,
     pub(crate) size: [f64; 2],
 }
 
@@ -38,13 +43,18 @@ const BLOCK: usize = 16;
 /// Texels of the largest level that a walk takes the short way in.
 const SHORT: usize = 1 << 31;
 
+/// Texels that follow the last of a row: in a tile the first ones again, so that a run that begins
+/// in a row can be read in one piece. [`LANES`](crate::walk::LANES) less one.
+pub(crate) const APRON: usize = crate::walk::LANES - 1;
+
 /// Texels from one row of a level to the next.
 ///
 /// Four texels are a line of the cache. An odd number of lines puts the rows that an ellipse crosses
 /// into different sets of it; with the powers of two that textures like to be, they would all fall into
 /// one and push each other out. Narrow levels are left alone.
 pub(crate) fn stride(width: usize) -> usize {
-    if width < 32 { width } else { 4 * (width.div_ceil(4) | 1) }
+    let wide = width.saturating_add(APRON);
+    if width < 32 { wide } else { (wide.div_ceil(4) | 1).saturating_mul(4) }
 }
 
 impl Level {
@@ -63,8 +73,8 @@ impl Level {
         let texels = vec![[0.0; 4]; len];
         let most = [width, height].map(|n| if n == 1 { 2.5 } else { f64::INFINITY });
         let size = if len < SHORT { [width as f64, height as f64] } else { [0.0; 2] };
-        let frame = Frame { scale: [1.0; 2], blurred: [0.0; 2], most, size };
-        Ok(Self { width, height, stride, texels, frame })
+        let frame = Frame { scale: [1.0; 2], blurred: [0.0; 2], most, low: 0.0, size };
+        Ok(Self { width, height, stride, texels, mask: [-1; 2], frame })
     }
 
     /// This level as one over a base of the given size, made by steps that add `step` squared texels
@@ -74,6 +84,28 @@ impl Level {
         self.frame.scale = scale;
         self.frame.blurred = scale.map(|s| step * (1.0 / (s * s) - 1.0) / 3.0);
         self
+    }
+
+    /// Makes a filled level a tile: rows get their apron, and walks over powers of two go on for
+    /// ever.
+    pub(crate) fn make_tile(&mut self) {
+        let Self { width, height, stride, .. } = *self;
+        for row in self.texels.chunks_exact_mut(stride) {
+            for i in 0..APRON {
+                row[width + i] = row[i % width];
+            }
+        }
+        if self.frame.size[0] > 0.0 && width.is_power_of_two() && height.is_power_of_two() {
+            self.mask = [width, height].map(|n| n as i32 - 1);
+            self.frame.low = f64::NEG_INFINITY;
+            self.frame.size = [f64::INFINITY; 2];
+        }
+    }
+
+    /// The texels of row `y`, which must exist, and its apron.
+    #[inline(always)]
+    pub(crate) fn row_with_apron(&self, y: usize) -> &[[f32; 4]] {
+        &self.texels[y * self.stride..][..self.width + APRON]
     }
 
     /// The texels of row `y`, which must exist.

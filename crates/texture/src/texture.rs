@@ -17,7 +17,7 @@ use scumble_pixel::{ImageView, Premul, WorkingSpace};
 
 /// An image made ready to be filtered: its pyramid, premultiplied, in the working space.
 ///
-/// Texels take 16 bytes each (four `f32`), rows of 32 and more are padded by up to seven of them, and
+/// Texels take 16 bytes each (four `f32`), rows are padded by three to eleven of them, and
 /// all levels together take a third more than the base:
 /// [`Texture::memory_for`] says it before anything is allocated.
 #[derive(Debug, Clone)]
@@ -61,6 +61,9 @@ impl Texture {
             _ => mean(&levels[0]),
         };
         let TextureOptions { space, wrap, .. } = *options;
+        if wrap == Wrap::Repeat {
+            levels.iter_mut().for_each(Level::make_tile);
+        }
         let nearer = [Nearer::new(wrap, width), Nearer::new(wrap, height)];
         Ok(Self { levels, wrap, space, average, nearer, simd: Simd::best() })
     }

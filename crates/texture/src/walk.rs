@@ -44,7 +44,7 @@ pub(crate) struct Walk {
     pub(crate) run_scale: f32,
     /// Weights with e above this are 0: ½R².
     pub(crate) cut: f32,
-    /// 1 if every texel of the walk lies inside the level, else 0.
+    /// 1 if every texel of the walk lies inside the level, or in tiles that are as good, else 0.
     pub(crate) inside: i32,
 }
 
@@ -74,9 +74,9 @@ impl Walk {
         let start = |j: f32| floor32((fx + slope * (j - fy)) - run) + 1.0;
         let (a, b) = (start(first), start(last));
         let (left, right) = (a.min(b), a.max(b) + 4.0 * groups);
-        let inside = (x0 + f64::from(left) >= 0.0)
+        let inside = (x0 + f64::from(left) >= frame.low)
             & (x0 + f64::from(right) <= frame.size[0])
-            & (y0 + f64::from(first) >= 0.0)
+            & (y0 + f64::from(first) >= frame.low)
             & (y0 + f64::from(last) < frame.size[1]);
         Self {
             x0: x0 as i32,
@@ -119,7 +119,11 @@ impl Walk {
     #[inline(always)]
     pub(crate) fn row<'a>(&self, j: i32, level: &'a Level, wrap: Wrap) -> Row<'a> {
         let y = wrap.resolve(self.y0 + j, level.height);
-        Row { texels: y.map(|y| level.row(y)), wrap }
+        let texels = y.map(|y| match wrap {
+            Wrap::Repeat => level.row_with_apron(y),
+            _ => level.row(y),
+        });
+        Row { texels, width: level.width, wrap }
     }
 }
 
@@ -127,6 +131,8 @@ impl Walk {
 #[derive(Clone, Copy)]
 pub(crate) struct Row<'a> {
     texels: Option<&'a [[f32; 4]]>,
+    /// Texels without the apron.
+    width: usize,
     wrap: Wrap,
 }
 
@@ -135,6 +141,8 @@ impl Row<'_> {
     /// collected where they do not.
     #[inline(always)]
     pub(crate) fn with_run<R>(&self, x: i32, f: impl FnOnce(&[[f32; 4]; LANES]) -> R) -> R {
+        // Sizes are below 2²⁹. In a tile, every run begins in the row, and the apron ends it.
+        let x = if self.wrap == Wrap::Repeat { x.rem_euclid(self.width as i32) } else { x };
         let inside = self.texels.and_then(|row| row.get(usize::try_from(x).ok()?..)?.first_chunk());
         match inside {
             Some(run) => f(run),
@@ -148,7 +156,7 @@ impl Row<'_> {
         core::array::from_fn(|i| {
             let found = self
                 .texels
-                .and_then(|row| self.wrap.resolve(x + i as i32, row.len()).map(|x| row[x]));
+                .and_then(|row| self.wrap.resolve(x + i as i32, self.width).map(|x| row[x]));
             found.unwrap_or_else(|| self.wrap.border())
         })
     }

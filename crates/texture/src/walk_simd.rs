@@ -54,7 +54,7 @@ pub(crate) fn walk_all<S: Simd>(
         while let Some(job) = jobs.get(to)
             && let Some(pieces) = scratch.0.get_mut(used..used + job.walk.pieces())
         {
-            weigh(simd, t.levels[job.level].stride, &job.walk, pieces);
+            weigh(simd, &t.levels[job.level], &job.walk, pieces);
             used += pieces.len();
             to += 1;
         }
@@ -79,21 +79,20 @@ pub(crate) fn walk_all<S: Simd>(
     }
 }
 
-/// The pieces of a walk inside a level.
+/// The pieces of a walk inside a level, or over tiles of it.
 #[inline(always)]
-fn weigh<S: Simd>(simd: S, stride: usize, w: &Walk, pieces: &mut [Piece]) {
-    // Inside, every sum here is an index of a texel, and fits 31 bits.
-    let stride = stride as i32;
-    let row = i32x16::load_array(simd, ROWS.map(|r| r as i32)) * stride;
-    let base = w.y0.wrapping_mul(stride).wrapping_add(w.x0);
+fn weigh<S: Simd>(simd: S, level: &Level, w: &Walk, pieces: &mut [Piece]) {
+    // After the masks, every sum here is an index of a texel, and fits 31 bits.
+    let (stride, [mask_x, mask_y]) = (level.stride as i32, level.mask);
+    let row = i32x16::load_array(simd, ROWS.map(|r| r as i32)) + w.y0;
     let mut pieces = pieces.iter_mut();
     for j in (0..w.blocks).map(|block| w.first + block * LANES as i32) {
         let block = Block::new(simd, w, j);
-        let starts: i32x16<S> = block.start.to_int();
-        let offsets = row + base.wrapping_add(j.wrapping_mul(stride)) + starts;
+        let starts: i32x16<S> = block.start.to_int::<i32x16<S>>() + w.x0;
+        let rows = ((row + j) & mask_y) * stride;
         for (k, piece) in (0..w.groups).zip(&mut pieces) {
             piece.weights = block.weights(simd, w, k).to_array();
-            piece.offsets = (offsets + k * LANES as i32).to_array();
+            piece.offsets = (rows + ((starts + k * LANES as i32) & mask_x)).to_array();
         }
     }
 }
