@@ -184,6 +184,35 @@ mod tests {
         assert_eq!(workspace("scumble", json!([]), json!([])).len(), 1);
     }
 
+    /// A cell of the page's table as a sorted list of names.
+    fn sorted<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+        let mut names: Vec<_> = names.into_iter().filter(|name| *name != "nothing").collect();
+        names.sort_unstable();
+        names
+    }
+
+    #[test]
+    fn the_page_on_the_architecture_has_the_same_table() {
+        let page = include_str!("../../../docs/architecture.md");
+        for room in &ROOMS {
+            let start = format!("| `{}` |", room.package);
+            let row = page.lines().find(|line| line.starts_with(&start)).unwrap();
+            let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+            let [_, _, _, ours, outside] = cells[..] else { panic!("{row}") };
+            let expected = match room.ours {
+                Ours::Only(names) => sorted(names.iter().map(|n| n.trim_start_matches("scumble-"))),
+                Ours::Published => vec!["all that are published"],
+                Ours::Any => vec!["anything"],
+            };
+            assert_eq!(sorted(ours.split(", ")), expected, "{row}");
+            let expected = match room.outside {
+                Outside::Only(names) => sorted(names.iter().copied()),
+                Outside::Any => vec!["anything"],
+            };
+            assert_eq!(sorted(outside.split(", ")), expected, "{row}");
+        }
+    }
+
     #[test]
     fn what_may_never_see_each_other_cannot() {
         let apart = ["scumble-coverage", "scumble-texture", "scumble-framebuffer"];
