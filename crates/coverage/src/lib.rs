@@ -81,6 +81,12 @@
 //! The examples `triangle`, `zbuffer` and `order` draw a triangle in twenty lines, a turning
 //! textured cube with a depth test per sample, and the visiting orders of incremental traversal.
 //!
+//! # Features
+//!
+//! - `std` (default): instruction sets are chosen at run time.
+//! - `libm`: floating point without the standard library; the crate is `no_std` with `alloc` then, and
+//!   gives the same samples and areas by the instructions that it is compiled for.
+//!
 //! # How it works, and what it costs
 //!
 //! A triangle is three edge functions E(x, y) = a·x + b·y + c ([Pineda 1988]). For a band of eight

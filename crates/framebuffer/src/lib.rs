@@ -42,6 +42,11 @@
 //! assert_eq!(codes[2], [128, 128, 128, 255]);
 //! assert_eq!(codes[3], [255, 255, 255, 255]);
 //! ```
+//!
+//! # Features
+//!
+//! - `std` (default): links the standard library. Nothing here needs it: without it the crate is
+//!   `no_std` with `alloc`, and the same in every other way.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 extern crate alloc;

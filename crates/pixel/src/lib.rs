@@ -29,6 +29,11 @@
 //! assert_eq!(mix(WorkingSpace::Srgb), [128, 128, 128, 255]);
 //! assert_eq!(mix(WorkingSpace::Linear), [188, 188, 188, 255]);
 //! ```
+//!
+//! # Features
+//!
+//! - `std` (default): links the standard library. Nothing here needs it: without it the crate is
+//!   `no_std` with `alloc`, and the same in every other way.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 extern crate alloc;

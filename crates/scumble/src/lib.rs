@@ -8,7 +8,7 @@
 //!
 //! This crate composes the others and has no filter, coverage rule or colour arithmetic of its
 //! own; it re-exports them, so that one dependency is enough.
-#![doc = include_str!("example.md")]
+#![doc = include_str!("guide.md")]
 
 mod bins;
 mod control;

@@ -5,7 +5,7 @@ pub enum TextureError {
     /// The image has no pixel.
     #[error("the image is empty")]
     Empty,
-    /// The texels do not fit the address space.
+    /// A side is above 2²⁹, or the texels do not fit the address space.
     #[error("a texture of {width} by {height} texels is too large")]
     TooLarge {
         /// Columns.

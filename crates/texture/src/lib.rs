@@ -61,6 +61,13 @@
 //! assert!((r - 0.5).abs() < 0.01 && alpha == 1.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Features
+//!
+//! - `std` (default): instruction sets are chosen at run time.
+//! - `libm`: floating point without the standard library; the crate is `no_std` with `alloc` then, and
+//!   gives the same bits by the instructions that it is compiled for.
+//! - `parallel`: builds pyramids on several threads, with the same bits.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 extern crate alloc;

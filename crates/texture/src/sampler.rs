@@ -70,7 +70,7 @@ impl Sampler {
         Self { max_eccentricity: 32.0, radius: 3.08, least_sigma: 0.6, blend: true, ..Self::FAST };
     /// For print and masters.
     pub const HIGH: Self = Self { max_eccentricity: 64.0, least_sigma: 0.8, ..Self::DEFAULT };
-    /// Truth for tests: ten times the texels.
+    /// Truth for tests: up to ten times the texels of the default, where the texture is far away.
     pub const REFERENCE: Self = Self {
         max_eccentricity: 1024.0,
         radius: 4.0,

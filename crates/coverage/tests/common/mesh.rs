@@ -43,10 +43,10 @@ impl Mesh {
         let n = outline.len();
         let fan: Vec<_> = (0..n).map(|i| [center, outline[i], outline[(i + 1) % n]]).collect();
         if n < 3 || fan.iter().any(|t| cross(t[0], t[1], t[2]) <= 0) {
-            // The center sees less than a full turn: leave it and its last triangle out.
+            // The centre sees less than a full turn: leave it and its last triangle out.
             let open: Vec<_> = fan.into_iter().filter(|t| cross(t[0], t[1], t[2]) > 0).collect();
             let mut outline = outline;
-            // Only a single gap makes a polygon with the center as a corner.
+            // Only a single gap makes a polygon with the centre as a corner.
             if open.len() + 1 == n {
                 while cross(center, outline[n - 1], outline[0]) > 0 {
                     outline.rotate_left(1);

@@ -79,8 +79,9 @@ pub(super) fn stroke_style(stroke: &usvg::Stroke) -> StrokeStyle {
     }
 }
 
-/// Most dashes that one path is cut into.
-const MAX_DASHES: f64 = 100_000.0;
+/// Most dashes and gaps that one path is cut into: as many as geometry cuts a contour into, so that
+/// none is left whole without a warning.
+const MAX_DASHES: f64 = (1u32 << 16) as f64;
 
 /// Takes the dashes away if a path would have too many to be told apart, and says whether it did.
 pub(super) fn limit_dashes(style: &mut StrokeStyle, path: &Path) -> bool {

@@ -55,6 +55,15 @@ pub(super) fn undrawn(name: &str, value: &str) -> Option<&'static str> {
     })
 }
 
+/// Keeps a property, or drops and names it if it is not drawn yet.
+fn unless_undrawn(name: &str, value: &str, offset: usize, warnings: &mut Warnings) -> Verdict {
+    let Some(instead) = undrawn(name, value) else { return Verdict::Keep };
+    if !instead.is_empty() {
+        warnings.add(offset, instead);
+    }
+    Verdict::Drop
+}
+
 /// The texts in a `style` element; comments are none.
 pub(super) fn texts<'a, 'input: 'a>(
     node: Node<'a, 'input>,
@@ -82,15 +91,7 @@ pub(super) fn rewrite_sheet(
         }
         // Without `!important`, so that it yields inside markers.
         "marker" | "marker-start" | "marker-mid" | "marker-end" => Verdict::Weaken,
-        _ => match undrawn(name, value) {
-            None => Verdict::Keep,
-            Some(instead) => {
-                if !instead.is_empty() {
-                    warnings.add(offset, instead);
-                }
-                Verdict::Drop
-            }
-        },
+        _ => unless_undrawn(name, value, offset, warnings),
     });
     if has_origin && placeholders.maps.len() > maps_before {
         let message = "`transform-origin` in a style sheet does not reach perspective transforms";
@@ -126,15 +127,7 @@ pub(super) fn split_inline(
             Verdict::Drop
         }
         name if in_marker && name.starts_with("marker") => Verdict::Drop,
-        _ => match undrawn(name, value) {
-            None => Verdict::Keep,
-            Some(instead) => {
-                if !instead.is_empty() {
-                    warnings.add(offset, instead);
-                }
-                Verdict::Drop
-            }
-        },
+        _ => unless_undrawn(name, value, offset, warnings),
     });
     InlineStyle { css, transform, origin }
 }
