@@ -5,7 +5,7 @@ const ROUND: f64 = 4_503_599_627_370_496.0;
 /// The nearest of 256 codes to `value` in 0…1, exactly: 255·value has no error in `f64`, and the
 /// only tie, one half, goes up to 128. Out of range is clamped and NaN is 0.
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn unorm8(value: f32) -> u8 {
     (clamp(value) * 255.0 + ROUND).to_bits() as u8
 }
@@ -18,7 +18,7 @@ pub fn unorm16(value: f32) -> u16 {
 }
 
 /// `value` in 0…1; NaN fails the first comparison and is 0.
-#[inline]
+#[inline(always)]
 fn clamp(value: f32) -> f64 {
     let above = if value > 0.0 { value } else { 0.0 };
     f64::from(if above < 1.0 { above } else { 1.0 })
