@@ -45,8 +45,8 @@
 //!
 //! # Features
 //!
-//! - `std` (default): links the standard library. Nothing here needs it: without it the crate is
-//!   `no_std` with `alloc`, and the same in every other way.
+//! - `std` (default): [`encode_row`] chooses its instructions at run time. Without it the crate is
+//!   `no_std` with `alloc`, has no dependency but `scumble-pixel`, and gives the same bytes.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 extern crate alloc;
