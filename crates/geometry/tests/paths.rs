@@ -278,9 +278,59 @@ fn dashes_follow_the_pattern() {
     }
     // A gap as long as the line.
     assert_eq!(spans(&[10.0, 30.0], 10.0, &line), []);
+    // Dots, the first of them where the line begins.
+    let dots = StrokeStyle { dashes: vec![0.0, 5.0], cap: Cap::Square, ..Default::default() };
+    let outline = line.stroke(&dots, 0.01).flatten(&Homography::IDENTITY, 0.01);
+    let middles = outline
+        .iter()
+        .map(|c| Rect::bounding(c.iter().copied()).map(|r| 0.5 * (r.x0 + r.x1)).unwrap());
+    assert_eq!(middles.collect::<Vec<_>>(), [0.0, 5.0, 10.0, 15.0, 20.0]);
     // Around the seam of a closed contour: 40 long, 6 on and 4 off, from −3 on.
     let square = Path::rect(Rect::new(0.0, 0.0, 10.0, 10.0));
     assert_eq!(spans(&[6.0, 4.0], 3.0, &square).len(), 4);
+}
+
+#[test]
+fn a_dash_at_a_corner_has_no_join_there() {
+    // The second dash begins at the corner (10, 0), the third ends at (10, 10), give or take
+    // rounding: each is a plain rectangle of one side.
+    for nudge in [0.0, 1e-10, -1e-10] {
+        let corner =
+            Path::polyline([v(0.0, 0.0), v(10.0, 0.0), v(10.0, 10.0), v(0.0, 10.0)], false);
+        let dashes = vec![4.0, 6.0 + nudge, 3.0, 4.0, 3.0, 100.0];
+        let style = StrokeStyle { width: 2.0, dashes, ..Default::default() };
+        let outline = corner.stroke(&style, 0.01).flatten(&Homography::IDENTITY, 0.01);
+        let boxes = outline.iter().map(|c| Rect::bounding(c.iter().copied()).unwrap());
+        let boxes: Vec<Rect> = boxes.collect();
+        let expected = [
+            Rect::new(0.0, -1.0, 4.0, 1.0),
+            Rect::new(9.0, 0.0, 11.0, 3.0),
+            Rect::new(9.0, 7.0, 11.0, 10.0),
+        ];
+        assert_eq!(boxes.len(), 3);
+        for (r, e) in boxes.iter().zip(&expected) {
+            let far = [r.x0 - e.x0, r.y0 - e.y0, r.x1 - e.x1, r.y1 - e.y1];
+            assert!(far.iter().all(|d| d.abs() < 1e-6), "{r:?} for {e:?}");
+        }
+    }
+}
+
+#[test]
+fn a_dash_that_ends_a_closed_contour_joins_the_one_that_begins_it() {
+    // 40 long: 10 on, 5 off, 15 on, 5 off, and 5 on up to the seam.
+    let square = Path::rect(Rect::new(0.0, 0.0, 10.0, 10.0));
+    for nudge in [0.0, 1e-10, -1e-10] {
+        let dashes = vec![10.0, 5.0, 15.0, 5.0, 5.0 + nudge, 3.0];
+        let style = StrokeStyle { width: 2.0, dashes, ..Default::default() };
+        let outline = square.stroke(&style, 0.01).flatten(&Homography::IDENTITY, 0.01);
+        assert_eq!(outline.len(), 2, "{outline:?}");
+        let seam = outline.iter().flatten().any(|p| p.distance(v(-1.0, -1.0)) < 1e-6);
+        assert!(seam, "the miter at the seam is missing");
+        // One dash all around is a closed contour.
+        let whole = StrokeStyle { width: 2.0, dashes: vec![40.0 + nudge, 9.0], ..style };
+        let plain = StrokeStyle { width: 2.0, ..Default::default() };
+        assert_eq!(square.stroke(&whole, 0.01), square.stroke(&plain, 0.01));
+    }
 }
 
 #[test]
