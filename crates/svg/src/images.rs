@@ -3,11 +3,14 @@
 use crate::data_uri::{self, DataUriError};
 use crate::error::ErrorKind;
 use crate::{Limits, ResourceError, Resources};
-use image::{ImageDecoder, ImageReader};
+use image::{ImageDecoder, ImageError, ImageReader};
 use scumble_pixel::Image;
 use scumble_scene::{ImageId, ImageWrap, SceneImage};
 use std::collections::HashMap;
 use std::io::Cursor;
+
+/// Memory that decoders may use whatever the limits, in bytes: their tables take some of it.
+const LEAST_ALLOWANCE: u64 = 1 << 20;
 
 /// The images of a scene while it is being read.
 pub(crate) struct Images<'a> {
@@ -69,6 +72,13 @@ impl<'a> Images<'a> {
     /// Decodes PNG, JPEG, GIF (the first frame) or WebP, told apart by their first bytes.
     fn decode(&mut self, href: &str, stored: &[u8]) -> Result<Image<[u8; 4]>, ErrorKind> {
         let bad = |message: String| ErrorKind::Image { href: shorten(href), message };
+        let refused = |error: ImageError| match error {
+            ImageError::Limits(_) => ErrorKind::Limit(format!(
+                "image `{}` would take more memory to read than all images may",
+                shorten(href)
+            )),
+            other => bad(other.to_string()),
+        };
         let mut reader = ImageReader::new(Cursor::new(stored))
             .with_guessed_format()
             .map_err(|e| bad(e.to_string()))?;
@@ -77,13 +87,16 @@ impl<'a> Images<'a> {
         }
         let mut limits = image::Limits::default();
         // Sixteen bytes a pixel: the widest format that a decoder may hold on the way to RGBA8.
-        limits.max_alloc = Some(self.limits.max_image_pixels.saturating_mul(16));
+        // Metadata counts too, which a few bytes can swell without end.
+        let widest = self.limits.max_image_pixels.saturating_mul(16);
+        let all = self.limits.max_image_bytes.saturating_mul(4).max(LEAST_ALLOWANCE);
+        limits.max_alloc = Some(widest.max(LEAST_ALLOWANCE).min(all));
         reader.limits(limits);
-        let decoder = reader.into_decoder().map_err(|e| bad(e.to_string()))?;
+        let decoder = reader.into_decoder().map_err(refused)?;
         // The header says how large it is: refuse before a byte of pixels is made.
         let (width, height) = decoder.dimensions();
         self.reserve(href, width, height)?;
-        let decoded = image::DynamicImage::from_decoder(decoder).map_err(|e| bad(e.to_string()))?;
+        let decoded = image::DynamicImage::from_decoder(decoder).map_err(refused)?;
         let rgba = decoded.into_rgba8();
         let (width, height) = (rgba.width() as usize, rgba.height() as usize);
         let pixels = rgba.into_raw().as_chunks::<4>().0.to_vec();

@@ -351,6 +351,22 @@ fn images_that_are_missing_or_broken() {
 }
 
 #[test]
+fn an_image_too_large_for_its_decoder_meets_a_limit() {
+    // The decoder refuses such a header before we see how large it claims to be.
+    let mut bomb = png(1, 1);
+    bomb[16..20].copy_from_slice(&i32::MAX.to_be_bytes());
+    bomb[20..24].copy_from_slice(&i32::MAX.to_be_bytes());
+    let crc = crc32(&bomb[12..29]);
+    bomb[29..33].copy_from_slice(&crc.to_be_bytes());
+    let uri = data_uri("image/png", &bomb);
+    for profile in BOTH {
+        let e =
+            error(profile, &course_text(&format!("<image width='9' height='9' href='{uri}'/>")));
+        assert!(e.is_limit() && e.to_string().starts_with("1:65: "), "{e}");
+    }
+}
+
+#[test]
 fn images_larger_than_allowed() {
     // A header that promises 60 000 × 60 000 pixels; none of them follows.
     let mut bomb = png(1, 1);
