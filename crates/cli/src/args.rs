@@ -56,6 +56,7 @@ Examples:
 
 /// What to render, and how.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 #[command(long_about = RENDER_ABOUT, after_long_help = RENDER_EXAMPLES, after_help = RENDER_MORE)]
 pub(crate) struct Render {
     /// The scene, an SVG file; `-` is standard input

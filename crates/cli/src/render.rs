@@ -29,7 +29,7 @@ pub(crate) fn run(options: &Render) -> Result<(), Failure> {
     let limits = limits(options);
     let max_file = limits.max_file_bytes as u64;
     let folders = Folders::new(source.folder(), &options.files.resources, max_file)?;
-    let parsed = read(&source, &folders, limits, options)?;
+    let mut parsed = read(&source, &folders, limits, options)?;
     let parse = start.elapsed();
     if !options.report.quiet {
         warn(&source.name(), &parsed.warnings);
@@ -37,6 +37,7 @@ pub(crate) fn run(options: &Render) -> Result<(), Failure> {
     target.check_unused(&folders, force)?;
 
     let canvas = Canvas::new(&parsed.scene.view, &options.size, options.limits.max_pixels)?;
+    parsed.scene.view = canvas.view(parsed.scene.view, &options.size);
     let choices = Choices::new(&options.quality, &options.color, parsed.profile)?;
     let settings = choices.settings(&canvas, options)?;
     let job = Job { source: &source, target: &target, interrupt: &interrupt, settings: &settings };

@@ -2,6 +2,7 @@
 
 use crate::args::{Crop, Size};
 use crate::error::Failure;
+use scumble::geometry::DVec2;
 use scumble::scene::View;
 
 /// Size of a course picture when nobody asks for another, in pixels.
@@ -42,6 +43,20 @@ impl Canvas {
     /// Width and height of the picture.
     pub(crate) fn picture(&self) -> (u32, u32) {
         self.crop.map_or((self.width, self.height), |c| (c.width, c.height))
+    }
+
+    /// The view that keeps a scene at exactly its own size times the zoom where nobody asked for
+    /// another: a canvas that was rounded up has a last column or row that the scene covers in part,
+    /// instead of a scene that is stretched off its pixels.
+    pub(crate) fn view(&self, view: View, size: &Size) -> View {
+        match view {
+            View::Fit { .. } if size.width.is_none() && size.height.is_none() => {
+                let zoom = size.zoom.unwrap_or(1.0);
+                let units = |pixels: u32| f64::from(pixels) / zoom;
+                View::Fit { size: DVec2::new(units(self.width), units(self.height)) }
+            }
+            other => other,
+        }
     }
 
     fn check_crop(&self) -> Result<(), Failure> {
@@ -125,6 +140,19 @@ mod tests {
         assert_eq!(picture(&fit(10_000.0, 1.0), &Size { width: Some(10), ..EMPTY }), (10, 1));
         let course = View::Course { size: DVec2::new(10.0, 90.0) };
         assert_eq!(picture(&course, &Size { width: Some(400), ..EMPTY }), (400, 300));
+    }
+
+    #[test]
+    fn a_fraction_of_a_pixel_does_not_stretch_the_scene() {
+        let scene = fit(100.5, 40.0);
+        for (size, scale) in [(EMPTY, 1.0), (Size { zoom: Some(2.5), ..EMPTY }, 2.5)] {
+            let Ok(canvas) = Canvas::new(&scene, &size, 1 << 30) else { panic!("a canvas") };
+            let map = canvas.view(scene, &size).transform(canvas.width, canvas.height);
+            assert_eq!((map.a, map.d, map.e, map.f), (scale, scale, 0.0, 0.0));
+        }
+        let wide = Size { width: Some(201), ..EMPTY };
+        let Ok(canvas) = Canvas::new(&scene, &wide, 1 << 30) else { panic!("a canvas") };
+        assert_eq!(canvas.view(scene, &wide), scene);
     }
 
     #[test]
