@@ -26,6 +26,9 @@ pub(crate) struct Surface {
 /// grey level in 255 on a pixel that the curve crosses. Halving it costs 1.4 times the points.
 const FLATNESS: f64 = 1.0 / 64.0;
 
+/// What a point of an outline takes, at the most, with the edge that it begins.
+const EDGE_BYTES: u64 = 64;
+
 /// A primitive, ready to be drawn.
 #[derive(Debug)]
 pub(crate) struct Draw {
@@ -40,11 +43,8 @@ pub(crate) struct Draw {
 impl Draw {
     /// Whether it may own a sample of a rectangle.
     pub(crate) fn touches(&self, rect: IntRect) -> bool {
-        let inside = match &self.form {
-            Form::Shape(shape) => shape.covers(rect) != Cover::None,
-            Form::Chain(_) | Form::Pixel => true,
-        };
-        inside && !self.bounds.intersect(&rect).is_empty()
+        let outside = matches!(&self.form, Form::Shape(shape) if shape.covers(rect) == Cover::None);
+        !outside && !self.bounds.intersect(&rect).is_empty()
     }
 }
 
@@ -73,6 +73,8 @@ pub(crate) struct Layer {
 pub(crate) struct Plan {
     pub(crate) draws: Vec<Draw>,
     pub(crate) layers: Vec<Layer>,
+    /// About what the outlines take, in bytes.
+    pub(crate) outline_bytes: u64,
     /// By image index; `None` where no command uses the image.
     pub(crate) surfaces: Vec<Option<Surface>>,
 }
@@ -87,12 +89,16 @@ pub(crate) fn build(scene: &Scene, settings: &Settings, surfaces: Vec<Option<Sur
         layer: 0,
         plan: Plan {
             draws: Vec::with_capacity(scene.commands.len()),
+            outline_bytes: 0,
             layers: vec![Layer { parent: 0, opacity: 1.0, depth: 1 }],
             surfaces,
         },
     };
     for command in &scene.commands {
         planner.command(command);
+        if planner.plan.outline_bytes > settings.max_memory {
+            break; // The caller refuses the plan; no need to make more of it.
+        }
     }
     planner.layer = 0;
     for ends in scene.view.frame(settings.width, settings.height).into_iter().flatten() {
@@ -157,6 +163,7 @@ impl Planner<'_> {
     }
 
     fn push_contours(&mut self, contours: &Contours, rule: FillRule, paint: Paint) {
+        self.plan.outline_bytes += contours.points.len() as u64 * EDGE_BYTES;
         let shape = Shape::polygon(contours.iter(), rule).ok().flatten();
         self.push_shape(shape, paint);
     }

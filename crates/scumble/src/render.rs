@@ -169,7 +169,6 @@ fn check_memory<E>(
     let tiles = tile.saturating_mul(depth).saturating_mul(threads as u64);
     let rows = schedule::buffered_rows(grid, threads) as u64 * u64::from(grid.area.width()) * 4;
     let draws = (plan.draws.len() * size_of::<Draw>()) as u64;
-    let needed =
-        [tiles, rows, draws, texture_bytes as u64].into_iter().fold(0u64, u64::saturating_add);
-    check_limit(needed, settings)
+    let all = [tiles, rows, draws, plan.outline_bytes, texture_bytes as u64];
+    check_limit(all.into_iter().fold(0, u64::saturating_add), settings)
 }

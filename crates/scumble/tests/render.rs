@@ -285,3 +285,19 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn outlines_count_against_the_memory_limit() {
+    let dense = (0..100_000).map(|i| DVec2::new(f64::from(i % 64), f64::from(i % 48)));
+    let fill = Command::Fill(Fill {
+        path: Arc::new(Path::polyline(dense, true)),
+        rule: FillRule::EvenOdd,
+        transform: Homography::IDENTITY,
+        color: RED,
+    });
+    let mut settings = Settings::new(64, 48);
+    settings.max_memory = 4 << 20;
+    assert!(render_image(&scene(vec![]), &settings).is_ok());
+    let refused = render_image(&scene(vec![fill]), &settings);
+    assert!(matches!(refused, Err(RenderError::Memory { .. })));
+}
