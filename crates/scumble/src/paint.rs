@@ -3,7 +3,7 @@
 use crate::plan::Surface;
 use scumble_geometry::{DVec2, Homography, Matrix2, Ramp};
 use scumble_pixel::Premul;
-use scumble_texture::{Footprint, Sampler};
+use scumble_texture::{Footprint, Sampler, Texture};
 
 /// How a primitive is coloured, in the working space.
 #[derive(Debug, Clone)]
@@ -32,21 +32,19 @@ pub(crate) struct Textured {
 }
 
 impl Textured {
+    fn texture<'a>(&self, surfaces: &'a [Option<Surface>]) -> Option<&'a Texture> {
+        surfaces.get(self.surface)?.as_ref().map(|surface| &surface.texture)
+    }
+
     fn row(&self, surfaces: &[Option<Surface>], start: DVec2, out: &mut [Premul]) {
-        let Some(Surface { texture, .. }) = surfaces.get(self.surface).and_then(Option::as_ref)
-        else {
-            return out.fill(Premul::TRANSPARENT);
-        };
+        let Some(texture) = self.texture(surfaces) else { return out.fill(Premul::TRANSPARENT) };
         texture.sample_row(&self.map, start, &self.sampler, out);
         self.finish(out);
     }
 
     /// The colour at one position over a footprint `share` times as wide as a pixel's.
     fn share(&self, surfaces: &[Option<Surface>], p: DVec2, share: f64) -> Premul {
-        let Some(Surface { texture, .. }) = surfaces.get(self.surface).and_then(Option::as_ref)
-        else {
-            return Premul::TRANSPARENT;
-        };
+        let Some(texture) = self.texture(surfaces) else { return Premul::TRANSPARENT };
         let mut footprint = Footprint::at(&self.map, p);
         footprint.jacobian = footprint.jacobian * Matrix2::new(share, 0.0, 0.0, share);
         let mut color = [texture.sample(&footprint, &self.sampler)];
@@ -103,9 +101,14 @@ impl Paint {
 
     /// The colour at one position, or at `fallback` where the first lies behind the eye: the
     /// centre of a pixel on the horizon, whose covered samples do not.
-    pub(crate) fn at(&self, surfaces: &[Option<Surface>], p: DVec2, fallback: DVec2) -> Premul {
+    pub(crate) fn at(
+        &self,
+        surfaces: &[Option<Surface>],
+        p: DVec2,
+        fallback: impl FnOnce() -> DVec2,
+    ) -> Premul {
         let p = match self {
-            Self::Textured(textured) if !textured.sees(p) => fallback,
+            Self::Textured(textured) if !textured.sees(p) => fallback(),
             _ => p,
         };
         let mut color = [Premul::TRANSPARENT];

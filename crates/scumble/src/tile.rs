@@ -259,7 +259,7 @@ impl Sink for Painter<'_> {
         let color = match self.paint {
             Paint::Solid(color) => *color,
             paint => {
-                let fallback = centroid(x, y, self.pattern(), mask);
+                let fallback = || centroid(x, y, self.pattern(), mask);
                 paint.at(&self.job.plan.surfaces, centre(x, y), fallback)
             }
         };
@@ -280,12 +280,10 @@ fn position(x: i32, y: i32, offset: [u8; 2]) -> DVec2 {
 /// The mean of the covered samples.
 fn centroid(x: i32, y: i32, pattern: &SamplePattern, mask: SampleMask) -> DVec2 {
     let mut sum = DVec2::ZERO;
-    let mut count = 0.0;
     for (i, &offset) in pattern.offsets().iter().enumerate() {
         if mask.0 >> i & 1 == 1 {
             sum += position(x, y, offset);
-            count += 1.0;
         }
     }
-    sum / count
+    sum / f64::from(mask.count())
 }
