@@ -31,10 +31,10 @@ pub struct Visibility {
     full: u64,
     /// Per pixel: the key of all its samples, or [`MIXED`].
     keys: Vec<u32>,
-    /// Per pixel, `stride` apart: the keys of its samples, if it is mixed; else anything.
-    mixed: Vec<u32>,
-    /// Samples, filled up to whole groups of [`GROUP`].
-    stride: usize,
+    /// Per pixel, `groups` of them: the keys of its samples, if it is mixed; else anything.
+    mixed: Vec<[u32; GROUP]>,
+    /// Groups that hold the samples of a pixel; 0 if there is only one.
+    groups: usize,
 }
 
 /// What is seen in some pixels of a row.
@@ -85,12 +85,12 @@ impl Visibility {
         (self.width, self.height) = (side(width), side(height));
         self.samples = samples.clamp(1, 64) as usize;
         self.full = u64::MAX >> (64 - self.samples);
-        self.stride = if self.samples == 1 { 0 } else { self.samples.next_multiple_of(GROUP) };
+        self.groups = if self.samples == 1 { 0 } else { self.samples.div_ceil(GROUP) };
         let len = self.width * self.height;
         self.keys.clear();
         self.keys.resize(len, key.min(Self::MAX_KEY));
-        if self.mixed.len() < len * self.stride {
-            self.mixed.resize(len * self.stride, 0);
+        if self.mixed.len() < len * self.groups {
+            self.mixed.resize(len * self.groups, [0; GROUP]);
         }
     }
 
@@ -124,10 +124,18 @@ impl Visibility {
         }
         let key = key.min(Self::MAX_KEY);
         for row in y..bottom {
-            let start = row * self.width;
-            for seen in &mut self.keys[start + x..start + right] {
-                *seen = key;
-            }
+            self.keys[row * self.width..][x..right].fill(key);
+        }
+    }
+
+    /// `key` hides what was seen in every sample of `len` pixels from (`x`, `y`) to the right.
+    #[inline]
+    pub fn fill_run(&mut self, x: u32, y: u32, len: u32, key: u32) {
+        let (x, y) = (x as usize, y as usize);
+        let right = x.saturating_add(len as usize).min(self.width);
+        if x < right && y < self.height {
+            let start = y * self.width;
+            self.keys[start + x..start + right].fill(key.min(Self::MAX_KEY));
         }
     }
 
@@ -144,15 +152,17 @@ impl Visibility {
             self.keys[i] = key;
         } else if mask != 0 && seen != key {
             self.keys[i] = MIXED;
-            let keys = &mut self.mixed[i * self.stride..][..self.stride];
-            let (groups, _) = keys.as_chunks_mut::<GROUP>();
-            for (g, group) in groups.iter_mut().enumerate() {
-                let bits = (mask >> (g * GROUP)) as u32;
+            let groups = &mut self.mixed[i * self.groups..][..self.groups];
+            if seen != MIXED {
+                groups.fill([seen; GROUP]);
+            }
+            let mut bits = mask;
+            for group in groups {
                 // Selected, not stored where needed: vectors have no branches.
-                *group = core::array::from_fn(|s| {
-                    let below = if seen == MIXED { group[s] } else { seen };
-                    if bits >> s & 1 == 1 { key } else { below }
-                });
+                for (sample, bit) in group.iter_mut().zip([1, 2, 4, 8]) {
+                    *sample = if bits as u32 & bit != 0 { key } else { *sample };
+                }
+                bits >>= GROUP;
             }
         }
     }
@@ -165,7 +175,7 @@ impl Visibility {
 
     /// The keys of the samples of a mixed pixel.
     fn samples_of(&self, i: usize) -> &[u32] {
-        &self.mixed[i * self.stride..][..self.samples]
+        &self.mixed[i * self.groups..][..self.groups].as_flattened()[..self.samples]
     }
 
     /// The pixels of a row where every key stands for one colour, encoded to straight 8-bit sRGB;
@@ -186,7 +196,7 @@ impl Visibility {
         let mut mixed = [Premul::TRANSPARENT; BATCH];
         let mut places = [0; BATCH];
         let mut count = 0;
-        for x in (0..keys.len().min(out.len())).filter(|&x| keys[x] == MIXED) {
+        for (x, _) in keys.iter().enumerate().take(out.len()).filter(|(_, key)| **key == MIXED) {
             mixed[count] = self.mix(start + x, palette);
             places[count] = x;
             count += 1;
@@ -199,6 +209,11 @@ impl Visibility {
     }
 
     fn mix(&self, i: usize, palette: &Palette) -> Premul {
+        if self.groups == 1 && self.samples == GROUP {
+            // The most common number deserves a loop of its own length.
+            let keys = self.mixed[i];
+            return mean_of(GROUP, |s| palette.color(keys[s]));
+        }
         let keys = self.samples_of(i);
         mean_of(keys.len(), |s| palette.color(keys[s]))
     }

@@ -1,6 +1,5 @@
 use crate::IntRect;
 use alloc::{vec, vec::Vec};
-use core::ops::RangeInclusive;
 
 /// How a rectangle of pixels is cut into square tiles, from its top left corner on; the last column
 /// and the last row of them may be narrower. Rows of tiles are called bands.
@@ -64,10 +63,10 @@ impl TileGrid {
         IntRect { x0, y0, x1, y1 }
     }
 
-    /// The tiles, along one axis, that `low..high` touches; it lies in the area and is not empty.
-    fn span(&self, origin: i32, low: i32, high: i32) -> RangeInclusive<usize> {
-        let index = |v: i32| (v.abs_diff(origin) / self.side) as usize;
-        index(low)..=index(high - 1)
+    /// The first and the last of the tiles, along one axis, that `low..high` touches; it lies in the
+    /// area and is not empty.
+    fn span(&self, origin: i32, low: i32, high: i32) -> [u32; 2] {
+        [low, high - 1].map(|v| v.abs_diff(origin) / self.side)
     }
 }
 
@@ -81,18 +80,26 @@ impl TileGrid {
 /// let rects = [IntRect::new(0, 0, 40, 9), IntRect::new(5, 30, 6, 34)];
 /// let mut bins = TileBins::new(grid, &rects);
 /// let mut lists = vec![Vec::new(); grid.columns()];
-/// bins.fill(0, &rects, &mut lists);
+/// bins.fill(0, &mut lists);
 /// assert_eq!(lists, [vec![0, 1], vec![0]]);
-/// bins.fill(1, &rects, &mut lists);
+/// bins.fill(1, &mut lists);
 /// assert_eq!(lists, [vec![1], vec![]]);
 /// ```
 #[derive(Debug, Clone)]
 pub struct TileBins {
-    grid: TileGrid,
     /// Per band: the rectangles that begin in it, in their order.
-    starting: Vec<Vec<u32>>,
+    starting: Vec<Vec<Entry>>,
     /// Those that touch the band at hand, in their order.
-    active: Vec<u32>,
+    active: Vec<Entry>,
+}
+
+/// The tiles that a rectangle touches. Kept with its number, since the rectangles of a band lie all
+/// over the list of all.
+#[derive(Debug, Clone, Copy)]
+struct Entry {
+    index: u32,
+    columns: [u32; 2],
+    last_band: u32,
 }
 
 impl TileBins {
@@ -100,33 +107,30 @@ impl TileBins {
     #[must_use]
     pub fn new(grid: TileGrid, rects: &[IntRect]) -> Self {
         let mut starting = vec![Vec::new(); grid.bands()];
-        for (i, rect) in (0..).zip(rects) {
+        for (index, rect) in (0..).zip(rects) {
             let rect = rect.intersect(&grid.area);
             if !rect.is_empty() {
-                starting[*grid.span(grid.area.y0, rect.y0, rect.y1).start()].push(i);
+                let columns = grid.span(grid.area.x0, rect.x0, rect.x1);
+                let [first_band, last_band] = grid.span(grid.area.y0, rect.y0, rect.y1);
+                starting[first_band as usize].push(Entry { index, columns, last_band });
             }
         }
-        Self { grid, starting, active: Vec::new() }
+        Self { starting, active: Vec::new() }
     }
 
     /// Fills one list for each tile of a band with the numbers of the rectangles that touch it, in
-    /// rising order. Bands must be asked for from the top on, each once, with the same rectangles.
-    pub fn fill(&mut self, band: usize, rects: &[IntRect], lists: &mut [Vec<u32>]) {
-        let (top, area) = (self.grid.tile(0, band).y0, self.grid.area);
-        self.active.retain(|&i| rects[i as usize].y1 > top);
+    /// rising order. Bands must be asked for from the top on, each once.
+    pub fn fill(&mut self, band: usize, lists: &mut [Vec<u32>]) {
+        self.active.retain(|entry| entry.last_band as usize >= band);
         if let Some(starting) = self.starting.get_mut(band) {
             self.active.append(starting);
         }
         // Two sorted runs: the standard sort finds and merges them in linear time.
-        self.active.sort();
+        self.active.sort_by_key(|entry| entry.index);
         lists.iter_mut().for_each(Vec::clear);
-        for &i in &self.active {
-            let rect = rects[i as usize];
-            let (x0, x1) = (rect.x0.max(area.x0), rect.x1.min(area.x1));
-            for column in self.grid.span(area.x0, x0, x1) {
-                if let Some(list) = lists.get_mut(column) {
-                    list.push(i);
-                }
+        for &Entry { index, columns: [first, last], .. } in &self.active {
+            for list in lists.iter_mut().take(last as usize + 1).skip(first as usize) {
+                list.push(index);
             }
         }
     }

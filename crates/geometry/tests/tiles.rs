@@ -22,7 +22,7 @@ proptest! {
         let mut lists = vec![vec![7]; grid.columns()];
         let mut pixels = 0;
         for band in 0..grid.bands() {
-            bins.fill(band, &rects, &mut lists);
+            bins.fill(band, &mut lists);
             for (column, list) in lists.iter().enumerate() {
                 let tile = grid.tile(column, band);
                 prop_assert!(tile.intersect(&area) == tile && tile.width() <= side);

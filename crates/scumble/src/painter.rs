@@ -31,7 +31,7 @@ impl Sink for Stamp<'_> {
     #[inline]
     fn run(&mut self, y: i32, x0: i32, x1: i32) {
         let (x, y) = local(self.origin, x0, y);
-        self.tile.fill_block(x, y, x1.abs_diff(x0), 1, self.key);
+        self.tile.fill_run(x, y, x1.abs_diff(x0), self.key);
     }
 
     #[inline]

@@ -156,7 +156,7 @@ impl Groups<'_> {
         let mut tasks = Vec::with_capacity(self.lists.len());
         let strips = buffer.chunks_mut(width * grid.side() as usize);
         for ((band, strip), lists) in bands.zip(strips).zip(self.lists.chunks_mut(columns)) {
-            self.bins.fill(band, &self.job.plan.bounds, lists);
+            self.bins.fill(band, lists);
             let first = tasks.len();
             tasks.extend(lists.iter().enumerate().map(|(column, list)| TileTask {
                 rect: grid.tile(column, band),

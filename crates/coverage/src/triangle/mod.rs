@@ -40,6 +40,7 @@ impl Triangle {
         self.corners
     }
 
+    #[inline(always)]
     pub(crate) fn edges(&self) -> [Edge; 3] {
         let [p, q, r] = self.corners;
         [Edge::new(p, q), Edge::new(q, r), Edge::new(r, p)]

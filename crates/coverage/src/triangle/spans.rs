@@ -6,7 +6,8 @@
 
 use crate::edge::Edge;
 use crate::{SampleMask, SamplePattern, Sink};
-use fearless_simd::{Simd, f64x8, prelude::*};
+use core::ops::Range;
+use fearless_simd::{Simd, f64x8, i32x4, prelude::*};
 use scumble_geometry::IntRect;
 
 /// Up to so many samples, stretches of each are quicker than tests of blocks.
@@ -54,9 +55,10 @@ impl<const N: usize> Crossing<N> {
         let corner = corner.clamp(-LIMIT, LIMIT) as f64;
         let (a, b) = (e.a as f64, e.b as f64);
         let offsets = pattern.offsets();
-        let at = core::array::from_fn(|s| {
-            corner + (a * f64::from(offsets[s][0]) + b * f64::from(offsets[s][1]))
-        });
+        let mut at = [corner; N];
+        for (at, o) in at.iter_mut().zip(offsets) {
+            *at += a * f64::from(o[0]) + b * f64::from(o[1]);
+        }
         let step = a.abs() * 256.0;
         Self { side, step, inverse: 1.0 / step, down: b * 256.0, at }
     }
@@ -115,54 +117,79 @@ fn walk<S: Simd, const N: usize>(
     let mut y = region.y0;
     while y < region.y1 {
         let rows = f64x8::load_array(simd, ROWS) + f64::from(y - region.y0);
-        let stretches = Stretches::<N>::new(simd, &crossings, rows, width);
         let count = (region.y1 - y).min(8) as usize;
-        stretches.emit(region.x0, y, count, &mut out);
+        let ends = ends_of_rows(simd, &crossings, rows, f64x8::splat(simd, width));
+        if N == 1 {
+            let (from, to) = (whole(simd, ends[0][0]), whole(simd, ends[0][1]));
+            for (i, y) in (0..count).zip(y..) {
+                if from[i] < to[i] {
+                    out.run(y, region.x0 + from[i], region.x0 + to[i]);
+                }
+            }
+        } else {
+            Stretches::new(simd, ends, width).emit(region.x0, y, count, &mut out);
+        }
         y += 8;
     }
     out.flush();
 }
 
-/// The stretches of each sample in eight rows, in pixels from the region's left.
-struct Stretches<const N: usize> {
-    starts: [[i32; 8]; N],
-    ends: [[i32; 8]; N],
-    /// Those of all samples together, and of any.
+/// The first pixel and the one past the last, of each sample in eight rows, from the region's left.
+#[inline(always)]
+fn ends_of_rows<S: Simd, const N: usize>(
+    simd: S,
+    crossings: &[Crossing<N>; 3],
+    rows: f64x8<S>,
+    width: f64x8<S>,
+) -> [[f64x8<S>; 2]; N] {
+    let (zero, one) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0));
+    let mut ends = [[zero, width]; N];
+    for e in crossings {
+        let down = rows * e.down;
+        for s in 0..N {
+            let v = down + e.at[s];
+            let [from, to] = &mut ends[s];
+            match e.side {
+                Side::Left => *from = from.max(-e.steps(simd, v)),
+                Side::Right => *to = to.min(e.steps(simd, v) + one),
+                Side::Row => *to = v.simd_lt(zero).select(zero, *to),
+            }
+        }
+    }
+    ends
+}
+
+/// The stretches of several samples in eight rows.
+struct Stretches<S: Simd> {
+    simd: S,
+    /// Per row and sample. Those beyond the pattern's are empty.
+    starts: [[i32; FEW]; 8],
+    ends: [[i32; FEW]; 8],
+    /// Per row: those of all samples together, and of any.
     all: [[i32; 8]; 2],
     any: [[i32; 8]; 2],
 }
 
-impl<const N: usize> Stretches<N> {
+impl<S: Simd> Stretches<S> {
     #[inline(always)]
-    fn new<S: Simd>(simd: S, crossings: &[Crossing<N>; 3], rows: f64x8<S>, width: f64) -> Self {
-        let (zero, one) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0));
-        let width = f64x8::splat(simd, width);
-        let (mut starts, mut ends) = ([zero; N], [width; N]);
-        for e in crossings {
-            let down = rows * e.down;
-            for s in 0..N {
-                let v = down + e.at[s];
-                match e.side {
-                    Side::Left => starts[s] = starts[s].max(-e.steps(simd, v)),
-                    Side::Right => ends[s] = ends[s].min(e.steps(simd, v) + one),
-                    Side::Row => ends[s] = v.simd_lt(zero).select(zero, ends[s]),
-                }
+    fn new<const N: usize>(simd: S, of_samples: [[f64x8<S>; 2]; N], width: f64) -> Self {
+        let (zero, width) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, width));
+        let (mut all, mut any) = ([zero, width], [width, zero]);
+        let (mut starts, mut ends) = ([[0; FEW]; 8], [[0; FEW]; 8]);
+        for (s, [from, to]) in of_samples.into_iter().enumerate() {
+            // A sample that owns nothing in a row must not widen what the others own.
+            let none = from.simd_ge(to);
+            let (from, to) = (none.select(width, from), none.select(zero, to));
+            all = [all[0].max(from), all[1].min(to)];
+            any = [any[0].min(from), any[1].max(to)];
+            let (from, to) = (whole(simd, from), whole(simd, to));
+            for i in 0..8 {
+                (starts[i][s], ends[i][s]) = (from[i], to[i]);
             }
         }
-        // A sample that owns nothing in a row must not widen what the others own.
-        let (mut all, mut any) = ([zero, width], [width, zero]);
-        for s in 0..N {
-            let none = starts[s].simd_ge(ends[s]);
-            (starts[s], ends[s]) = (none.select(width, starts[s]), none.select(zero, ends[s]));
-            all = [all[0].max(starts[s]), all[1].min(ends[s])];
-            any = [any[0].min(starts[s]), any[1].max(ends[s])];
-        }
-        Self {
-            starts: starts.map(|v| whole(simd, v)),
-            ends: ends.map(|v| whole(simd, v)),
-            all: all.map(|v| whole(simd, v)),
-            any: any.map(|v| whole(simd, v)),
-        }
+        let all = [whole(simd, all[0]), whole(simd, all[1])];
+        let any = [whole(simd, any[0]), whole(simd, any[1])];
+        Self { simd, starts, ends, all, any }
     }
 
     #[inline(always)]
@@ -173,20 +200,29 @@ impl<const N: usize> Stretches<N> {
             if full {
                 out.run(y, left + from, left + to);
             }
-            if N == 1 {
-                continue;
-            }
             let (first, last) = (self.any[0][i], self.any[1][i]);
             let (from, to) = if full { (from, to) } else { (last, last) };
-            for x in (first..from).chain(to..last) {
-                let mut mask = 0;
-                for s in 0..N {
-                    let owned = self.starts[s][i] <= x && x < self.ends[s][i];
-                    mask |= u64::from(owned) << s;
-                }
-                if mask != 0 {
-                    out.sink.pixel(left + x, y, SampleMask(mask));
-                }
+            self.partial(i, first..from, [left, y], out);
+            self.partial(i, to..last, [left, y], out);
+        }
+    }
+
+    /// The pixels of a row that are covered in part.
+    #[inline(always)]
+    fn partial(
+        &self,
+        i: usize,
+        columns: Range<i32>,
+        [left, y]: [i32; 2],
+        out: &mut Runs<'_, impl Sink>,
+    ) {
+        for x in columns {
+            let column = i32x4::splat(self.simd, x);
+            let begun = i32x4::load_array(self.simd, self.starts[i]).simd_le(column);
+            let going = i32x4::load_array(self.simd, self.ends[i]).simd_gt(column);
+            let mask = (begun & going).to_bitmask();
+            if mask != 0 {
+                out.sink.pixel(left + x, y, SampleMask(mask));
             }
         }
     }
@@ -197,8 +233,12 @@ impl<const N: usize> Stretches<N> {
 fn whole<S: Simd>(simd: S, v: f64x8<S>) -> [i32; 8] {
     // 1.5 × 2⁵² leaves no bit after the point, and the number in the low bits.
     let shifted = v + f64x8::splat(simd, 6_755_399_441_055_744.0);
-    let bits: [f64; 8] = shifted.to_array();
-    bits.map(|bits| bits.to_bits() as i32)
+    // A loop, not a map: arrays are mapped through memory.
+    let mut out = [0; 8];
+    for (out, bits) in out.iter_mut().zip(shifted.as_slice()) {
+        *out = bits.to_bits() as i32;
+    }
+    out
 }
 
 /// Joins equal runs of rows that follow each other.

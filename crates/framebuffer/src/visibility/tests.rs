@@ -97,7 +97,11 @@ proptest! {
             for op in ops {
                 match op {
                     Op::Block(x, y, w, h, key) => {
-                        tile.fill_block(x, y, w, h, key);
+                        if h == 1 {
+                            tile.fill_run(x, y, w, key);
+                        } else {
+                            tile.fill_block(x, y, w, h, key);
+                        }
                         for (row, column) in
                             (y..y + h).flat_map(|r| (x..x + w).map(move |c| (r, c)))
                         {
