@@ -108,7 +108,7 @@
 
 extern crate alloc;
 
-mod accumulate;
+mod area;
 mod conservative;
 mod edge;
 mod error;

@@ -1,0 +1,142 @@
+//! One edge within one row: the definition of its part in each pixel.
+
+use crate::fixed::{floor, low_bits};
+use fearless_simd::{Simd, f64x8, prelude::*};
+
+/// An edge from top to bottom, in pixels.
+///
+/// It is kept so that it runs right: one that runs left is seen in the mirror (x → −x, so that
+/// pixel c becomes pixel −c − 1).
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Slope {
+    pub(crate) mirrored: bool,
+    pub(crate) x0: f64,
+    pub(crate) y0: f64,
+    /// |Δx/Δy|.
+    pub(crate) run: f64,
+    /// ½ |Δy/Δx|; 0 for a vertical edge, which is never on its way through a pixel.
+    pub(crate) half_rise: f64,
+}
+
+impl Slope {
+    /// From (x0, y0) down to (x1, y1) in 1/256 pixel, y0 < y1.
+    #[inline(always)]
+    pub(crate) fn new(x0: i32, y0: i32, x1: i32, y1: i32) -> Self {
+        let mirrored = x1 < x0;
+        let dx = (f64::from(x1) - f64::from(x0)).abs();
+        let dy = f64::from(y1) - f64::from(y0);
+        let x = f64::from(x0) * (1.0 / 256.0);
+        Self {
+            mirrored,
+            x0: if mirrored { -x } else { x },
+            y0: f64::from(y0) * (1.0 / 256.0),
+            run: dx / dy,
+            half_rise: if dx == 0.0 { 0.0 } else { 0.5 * dy / dx },
+        }
+    }
+
+    /// (Mirrored) x at a height in pixels.
+    #[inline(always)]
+    fn along(&self, y: f64) -> f64 {
+        self.x0 + (y - self.y0) * self.run
+    }
+
+    /// x at a height in pixels.
+    #[inline(always)]
+    pub(crate) fn at(&self, y: f64) -> f64 {
+        if self.mirrored { -self.along(y) } else { self.along(y) }
+    }
+
+    /// The edge from `start`, the height at which it enters the row (the row's top or its own),
+    /// down to `y` within the same row.
+    #[inline(always)]
+    pub(crate) fn reach(&self, start: f64, y: f64) -> Reach {
+        Reach {
+            mirrored: self.mirrored,
+            from: self.along(start),
+            to: self.along(y),
+            height: y - start,
+            half_rise: self.half_rise,
+        }
+    }
+}
+
+/// An edge within one row of pixels, from where it enters it down to some height.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reach {
+    pub(crate) mirrored: bool,
+    /// The (mirrored) x at both ends, `from` ≤ `to`.
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+    pub(crate) height: f64,
+    pub(crate) half_rise: f64,
+}
+
+impl Reach {
+    /// The leftmost and the rightmost x.
+    #[inline(always)]
+    pub(crate) fn extent(&self) -> (f64, f64) {
+        if self.mirrored { (-self.to, -self.from) } else { (self.from, self.to) }
+    }
+
+    /// The first and the last pixel that it touches, held to one beyond `x0..x1`.
+    #[inline(always)]
+    pub(crate) fn pixels(&self, x0: i32, x1: i32) -> (i32, i32) {
+        // Held while still real: the numbers may be far outside. In the mirror a whole number
+        // belongs to the pixel on its other side.
+        let (low, high) = (f64::from(x0) - 1.0, f64::from(x1));
+        let column = |v: f64| low_bits(floor(v.clamp(low, high)));
+        let mirror = |v: f64| -1 - low_bits(floor(v.clamp(-high - 1.0, -low)));
+        if self.mirrored {
+            (mirror(self.to), mirror(self.from))
+        } else {
+            (column(self.from), column(self.to))
+        }
+    }
+
+    /// ∫ clamp(c + 1 − x(t), 0, 1) dt for a (mirrored) pixel c: the definition.
+    ///
+    /// With u₀ and u₁ the sides of the pixel, held to the ends of the edge, all of the pixel is right
+    /// of the edge until u₀ and less and less of it until u₁. That makes
+    /// ½ rise (u₁ − u₀)(u₀ + u₁ − 2·from) left of u₁, and what lies beyond the end of the edge is
+    /// right of it all the time.
+    ///
+    /// A function of the edge, the row, the pixel and the height, which changes by whole units once
+    /// the edge has left the pixel: so it does not matter at which heights a sum is cut.
+    #[cfg(test)]
+    pub(crate) fn part(&self, c: f64) -> f64 {
+        let end = c + 1.0;
+        let before = c.max(self.from).min(self.to);
+        let after = end.max(self.from).min(self.to);
+        let within = self.half_rise * (after - before);
+        let sum = (before - self.from) + (after - self.from);
+        let beyond = (end - self.to).max(0.0).min(1.0);
+        (within * sum + self.height * beyond + ROUNDER) - ROUNDER
+    }
+}
+
+/// 1.5 × 2²⁰ leaves 32 bits after the point: adding it to |v| < 2¹⁹ and taking it away again rounds
+/// to the nearest multiple of 2⁻³².
+const ROUNDER: f64 = 1_572_864.0;
+
+/// [`Reach::part`] of eight pixels, whose left sides are `c`.
+///
+/// `half_rise` and `height` may carry a sign, which the result takes on.
+#[inline(always)]
+pub(crate) fn eight_parts<S: Simd>(
+    simd: S,
+    c: f64x8<S>,
+    [from, to]: [f64; 2],
+    height: f64,
+    half_rise: f64,
+) -> f64x8<S> {
+    let splat = |v: f64| f64x8::splat(simd, v);
+    let (from, to) = (splat(from), splat(to));
+    let end = c + splat(1.0);
+    let before = c.max(from).min(to);
+    let after = end.max(from).min(to);
+    let within = splat(half_rise) * (after - before);
+    let sum = (before - from) + (after - from);
+    let beyond = (end - to).max(splat(0.0)).min(splat(1.0));
+    (within * sum + splat(height) * beyond + splat(ROUNDER)) - splat(ROUNDER)
+}
