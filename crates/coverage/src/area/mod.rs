@@ -12,11 +12,14 @@ mod slope;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use row::AreaRow;
-pub(crate) use slope::{Reach, Slope, eight_parts};
+pub(crate) use row::{AreaRow, GAP};
+pub(crate) use slope::{Reach, Slope, eight_areas, eight_parts, splat, touched};
 
 /// Pixels that are summed side by side.
 pub(crate) const CHUNK: i32 = 8;
+
+/// Their places.
+pub(crate) const LANES: [f64; 8] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 /// Columns of a row's sums: what comfortably stays in the cache.
 pub(crate) const ROW_CELLS: i32 = 1 << 15;

@@ -1,15 +1,13 @@
 //! The sums of one row of pixels.
 
-use super::{CHUNK, Reach, eight_parts};
+use super::{CHUNK, LANES, Reach, eight_areas, eight_parts, splat};
 use crate::AreaSink;
 use alloc::vec::Vec;
 use fearless_simd::{Simd, f64x8, prelude::*};
 
-const LANES: usize = CHUNK as usize;
-
 /// Groups of edges that are no further apart than this (in pixels) are handed on together: a sink
 /// pays more for a call than for a few pixels.
-const GAP: i32 = 4;
+pub(crate) const GAP: i32 = 4;
 
 /// Sums of one row of pixels within a clip, from left to right.
 ///
@@ -26,7 +24,7 @@ pub(crate) struct AreaRow {
     first: i32,
     end: i32,
     /// Eight pixels each: the area within them. All zero outside of a group.
-    cells: Vec<[f64; LANES]>,
+    cells: Vec<[f64; 8]>,
     /// Per chunk of cells: what they and all pixels right of them get.
     onward: Vec<f64>,
     out: Vec<f32>,
@@ -38,9 +36,9 @@ impl AreaRow {
         (self.x0, self.x1) = (x0, x1);
         // A group's last chunk may reach beyond, and what comes after it goes one further.
         let room = self.cells.len().max(((x1 - x0) / CHUNK) as usize + 2);
-        self.cells.resize(room, [0.0; LANES]);
+        self.cells.resize(room, [0.0; 8]);
         self.onward.resize(room, 0.0);
-        self.out.resize(room * LANES, 0.0);
+        self.out.resize(room * 8, 0.0);
     }
 
     /// Begins a row; `base` is the area at its left side.
@@ -70,11 +68,11 @@ impl AreaRow {
             return;
         }
         let end = last.min(self.x1 - 1) + 1;
-        if self.first < self.end && first <= self.end + GAP {
-            self.end = self.end.max(end);
-        } else {
+        if self.is_beyond(first) {
             self.flush(simd, y, sink);
             (self.first, self.end) = (first.max(self.x0), end);
+        } else {
+            self.end = self.end.max(end);
         }
     }
 
@@ -97,21 +95,46 @@ impl AreaRow {
         }
         let chunk = |x: i32| ((x - self.first) / CHUNK) as usize;
         let (from, to) = (chunk(first.max(self.first)), chunk(last.min(self.end - 1)));
-        let whole = weight * reach.height;
-        self.onward[to + 1] += whole;
-        // What is left behind in the mirror lies left of the edge: the rest is right of it.
-        let (all, sign, step) =
-            if reach.mirrored { (whole, -weight, -1.0) } else { (0.0, weight, 1.0) };
-        let (height, half_rise) = (sign * reach.height, sign * reach.half_rise);
-        let lanes = f64x8::from_slice(simd, &COLUMNS) * f64x8::splat(simd, step);
-        let mut at = f64::from(self.first + from as i32 * CHUNK);
+        self.onward[to + 1] += weight * reach.height;
+        let mut at = self.first + from as i32 * CHUNK;
         for cells in &mut self.cells[from..=to] {
-            let corner = if reach.mirrored { -1.0 - at } else { at };
-            let c = lanes + f64x8::splat(simd, corner);
-            let parts = eight_parts(simd, c, [reach.from, reach.to], height, half_rise);
-            let sum = f64x8::from_slice(simd, cells) + f64x8::splat(simd, all) + parts;
+            let sum = f64x8::from_slice(simd, cells) + eight_right(simd, at, reach, weight);
             sum.store_slice(cells);
-            at += f64::from(CHUNK);
+            at += CHUNK;
+        }
+    }
+
+    /// Whether a group from pixel `first` on would be a new one.
+    #[inline(always)]
+    pub(crate) fn is_beyond(&self, first: i32) -> bool {
+        self.first == self.end || first > self.end + GAP
+    }
+
+    /// Opens a group for an edge alone, adds it and ends the group: the same as these three, for an
+    /// edge that touches no more than [`CHUNK`] pixels and is beyond the group before.
+    #[inline(always)]
+    pub(crate) fn add_lone<S: Simd>(
+        &mut self,
+        simd: S,
+        y: i32,
+        reach: &Reach,
+        (first, last): (i32, i32),
+        weight: f64,
+        sink: &mut impl AreaSink,
+    ) {
+        self.flush(simd, y, sink);
+        self.end = self.first;
+        if first >= self.x1 {
+            return;
+        }
+        let before = self.base;
+        self.base += weight * reach.height;
+        if last >= self.x0 {
+            let first = first.max(self.x0);
+            let sum = splat(simd, before) + eight_right(simd, first, reach, weight);
+            let areas = eight_areas(simd, sum);
+            let width = (last.min(self.x1 - 1) + 1 - first) as usize;
+            self.from = emit_group(y, self.from, first, &areas[..width], [before, self.base], sink);
         }
     }
 
@@ -131,41 +154,67 @@ impl AreaRow {
             return;
         }
         let before = self.base;
-        let (zero, one) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0));
-        let chunks = (width - 1) / LANES + 1;
-        for ((cells, onward), out) in self.cells[..chunks]
-            .iter_mut()
-            .zip(&mut self.onward)
-            .zip(self.out.chunks_exact_mut(LANES))
+        let chunks = (width - 1) / 8 + 1;
+        for ((cells, onward), out) in
+            self.cells[..chunks].iter_mut().zip(&mut self.onward).zip(self.out.chunks_exact_mut(8))
         {
             self.base += core::mem::take(onward);
-            let v = f64x8::from_slice(simd, cells) + f64x8::splat(simd, self.base);
-            zero.store_slice(cells);
-            let mut values = [0.0; LANES];
-            v.max(zero).min(one).store_slice(&mut values);
-            for (out, v) in out.iter_mut().zip(values) {
-                *out = v as f32;
-            }
+            let v = f64x8::from_slice(simd, cells) + splat(simd, self.base);
+            *cells = [0.0; 8];
+            out.copy_from_slice(&eight_areas(simd, v));
         }
         self.base += core::mem::take(&mut self.onward[chunks]);
-        let values = &self.out[..width];
-        let (left, right) = (held(before), held(self.base));
-        let low = values.iter().take_while(|&&v| v == left).count();
-        if low == width && left == right {
-            return;
-        }
-        emit(y, self.from, self.first + low as i32, before, sink);
-        let values = &values[low..];
-        let high = values.len() - values.iter().rev().take_while(|&&v| v == right).count();
-        let x = self.first + low as i32;
-        if high > 0 {
-            sink.row(y, x, &values[..high]);
-        }
-        self.from = x + high as i32;
+        let between = [before, self.base];
+        self.from = emit_group(y, self.from, self.first, &self.out[..width], between, sink);
     }
 }
 
-pub(super) const COLUMNS: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+/// What lies right of an edge in the eight pixels from `x` on, times `weight`.
+#[inline(always)]
+fn eight_right<S: Simd>(simd: S, x: i32, reach: &Reach, weight: f64) -> f64x8<S> {
+    let lanes = f64x8::from_slice(simd, &LANES);
+    let ends = [reach.from, reach.to];
+    let height = weight * reach.height;
+    let half_rise = weight * reach.half_rise;
+    if reach.mirrored {
+        // What is left behind in the mirror lies left of the edge: the rest is right of it.
+        let c = splat(simd, f64::from(-1 - x)) - lanes;
+        splat(simd, height) - eight_parts(simd, c, ends, height, half_rise)
+    } else {
+        eight_parts(simd, lanes + splat(simd, f64::from(x)), ends, height, half_rise)
+    }
+}
+
+/// Hands on a stretch of equal area from `from` on and the pixels from `first` on, save those at
+/// either end that are like the stretch beside them. Tells from where on the next stretch runs.
+#[inline(always)]
+fn emit_group(
+    y: i32,
+    from: i32,
+    first: i32,
+    areas: &[f32],
+    [before, after]: [f64; 2],
+    sink: &mut impl AreaSink,
+) -> i32 {
+    let (left, right) = (held(before), held(after));
+    let mut low = 0;
+    while low < areas.len() && areas[low] == left {
+        low += 1;
+    }
+    if low == areas.len() && left == right {
+        return from;
+    }
+    let x = first + low as i32;
+    emit(y, from, x, before, sink);
+    let mut high = areas.len();
+    while high > low && areas[high - 1] == right {
+        high -= 1;
+    }
+    if low < high {
+        sink.row(y, x, &areas[low..high]);
+    }
+    first + high as i32
+}
 
 #[inline(always)]
 fn held(area: f64) -> f32 {

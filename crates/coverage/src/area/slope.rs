@@ -72,7 +72,24 @@ pub(crate) struct Reach {
     pub(crate) half_rise: f64,
 }
 
+/// The pixel of a (mirrored) x, held to one beyond `x0..x1`.
+#[inline(always)]
+pub(crate) fn touched(mirrored: bool, x: f64, x0: i32, x1: i32) -> i32 {
+    // Held while still real: the numbers may be far outside. In the mirror a whole number belongs
+    // to the pixel on its other side.
+    let (low, high) = (f64::from(x0) - 1.0, f64::from(x1));
+    if mirrored {
+        -1 - low_bits(floor(x.max(-1.0 - high).min(-1.0 - low)))
+    } else {
+        low_bits(floor(x.max(low).min(high)))
+    }
+}
+
 impl Reach {
+    /// Of no height.
+    pub(crate) const NONE: Self =
+        Self { mirrored: false, from: 0.0, to: 0.0, height: 0.0, half_rise: 0.0 };
+
     /// The leftmost and the rightmost x.
     #[inline(always)]
     pub(crate) fn extent(&self) -> (f64, f64) {
@@ -82,15 +99,11 @@ impl Reach {
     /// The first and the last pixel that it touches, held to one beyond `x0..x1`.
     #[inline(always)]
     pub(crate) fn pixels(&self, x0: i32, x1: i32) -> (i32, i32) {
-        // Held while still real: the numbers may be far outside. In the mirror a whole number
-        // belongs to the pixel on its other side.
-        let (low, high) = (f64::from(x0) - 1.0, f64::from(x1));
-        let column = |v: f64| low_bits(floor(v.clamp(low, high)));
-        let mirror = |v: f64| -1 - low_bits(floor(v.clamp(-high - 1.0, -low)));
+        let touched = |x: f64| touched(self.mirrored, x, x0, x1);
         if self.mirrored {
-            (mirror(self.to), mirror(self.from))
+            (touched(self.to), touched(self.from))
         } else {
-            (column(self.from), column(self.to))
+            (touched(self.from), touched(self.to))
         }
     }
 
@@ -110,7 +123,7 @@ impl Reach {
         let after = end.max(self.from).min(self.to);
         let within = self.half_rise * (after - before);
         let sum = (before - self.from) + (after - self.from);
-        let beyond = (end - self.to).max(0.0).min(1.0);
+        let beyond = (end - self.to).clamp(0.0, 1.0);
         (within * sum + self.height * beyond + ROUNDER) - ROUNDER
     }
 }
@@ -130,13 +143,30 @@ pub(crate) fn eight_parts<S: Simd>(
     height: f64,
     half_rise: f64,
 ) -> f64x8<S> {
-    let splat = |v: f64| f64x8::splat(simd, v);
-    let (from, to) = (splat(from), splat(to));
-    let end = c + splat(1.0);
+    let (from, to) = (splat(simd, from), splat(simd, to));
+    let end = c + splat(simd, 1.0);
     let before = c.max(from).min(to);
     let after = end.max(from).min(to);
-    let within = splat(half_rise) * (after - before);
+    let within = splat(simd, half_rise) * (after - before);
     let sum = (before - from) + (after - from);
-    let beyond = (end - to).max(splat(0.0)).min(splat(1.0));
-    (within * sum + splat(height) * beyond + splat(ROUNDER)) - splat(ROUNDER)
+    let beyond = (end - to).max(splat(simd, 0.0)).min(splat(simd, 1.0));
+    (within * sum + splat(simd, height) * beyond + splat(simd, ROUNDER)) - splat(simd, ROUNDER)
+}
+
+/// Eight times the same. (A function, as a closure would not be compiled for the instruction set.)
+#[inline(always)]
+pub(crate) fn splat<S: Simd>(simd: S, v: f64) -> f64x8<S> {
+    f64x8::splat(simd, v)
+}
+
+/// Eight areas, held to 0..=1.
+#[inline(always)]
+pub(crate) fn eight_areas<S: Simd>(simd: S, sums: f64x8<S>) -> [f32; 8] {
+    let mut held = [0.0; 8];
+    sums.max(splat(simd, 0.0)).min(splat(simd, 1.0)).store_slice(&mut held);
+    let mut areas = [0.0; 8];
+    for (area, v) in areas.iter_mut().zip(held) {
+        *area = v as f32;
+    }
+    areas
 }

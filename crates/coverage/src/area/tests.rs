@@ -55,11 +55,16 @@ proptest! {
         let mut found = Row(vec![0.0; WIDTH as usize]);
         dispatch!(Level::new(), simd => {
             row.begin(0.0);
-            for (e, up) in &edges {
-                let reach = reach(*e);
+            for (i, (e, up)) in edges.iter().enumerate() {
+                let (reach, weight) = (reach(*e), if *up { -1.0 } else { 1.0 });
                 let pixels = reach.pixels(clip.0, clip.1);
-                row.open(simd, 0, pixels, &mut found);
-                row.add(simd, &reach, pixels, if *up { -1.0 } else { 1.0 });
+                let is_last = i + 1 == edges.len();
+                if is_last && pixels.1 - pixels.0 < CHUNK && row.is_beyond(pixels.0) {
+                    row.add_lone(simd, 0, &reach, pixels, weight, &mut found);
+                } else {
+                    row.open(simd, 0, pixels, &mut found);
+                    row.add(simd, &reach, pixels, weight);
+                }
             }
             row.finish(simd, 0, &mut found);
         });

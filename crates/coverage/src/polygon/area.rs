@@ -12,7 +12,7 @@ use super::rows::{ActiveEdge, PolygonScratch, Rows};
 use super::strips::Strips;
 use super::{Polygon, PolygonEdge};
 use crate::AreaSink;
-use crate::area::{AreaRow, ROW_CELLS, Reach, Slope};
+use crate::area::{AreaRow, CHUNK, GAP, ROW_CELLS, Reach, Slope};
 use core::cmp::Ordering;
 use fearless_simd::{Level, Simd, dispatch};
 use scumble_geometry::IntRect;
@@ -157,15 +157,22 @@ impl Polygon {
         while x < region.x1 {
             let end = region.x1.min(x + ROW_CELLS);
             let clipped = Clipped { polygon: self, rect: IntRect { x0: x, x1: end, ..region } };
-            dispatch!(level, simd => clipped.rasterize(simd, scratch, sink));
+            dispatch!(level, simd => clipped.rasterize::<_, true>(simd, scratch, sink));
             x = end;
         }
     }
 }
 
 impl Clipped<'_> {
+    /// With `PLAIN`, plain clusters take the short way; without it all are cut into strips, which
+    /// gives the same to the bit.
     #[inline(always)]
-    fn rasterize<S: Simd>(&self, simd: S, scratch: &mut PolygonScratch, sink: &mut impl AreaSink) {
+    fn rasterize<S: Simd, const PLAIN: bool>(
+        &self,
+        simd: S,
+        scratch: &mut PolygonScratch,
+        sink: &mut impl AreaSink,
+    ) {
         let PolygonScratch { area_rows: rows, area, crossings, strips, .. } = scratch;
         let rect = self.rect;
         area.start(rect.x0, rect.x1);
@@ -182,7 +189,7 @@ impl Clipped<'_> {
                 continue;
             }
             self.enter_row(y, rows);
-            self.row(simd, y, rows, (crossings, strips, area), sink);
+            self.row::<S, PLAIN>(simd, y, rows, (crossings, strips, area), sink);
             area.finish(simd, y, sink);
             y += 1;
         }
@@ -200,7 +207,7 @@ impl Clipped<'_> {
 
     /// Adds one row of pixels to the sums, cluster by cluster.
     #[inline(always)]
-    fn row<S: Simd>(
+    fn row<S: Simd, const PLAIN: bool>(
         &self,
         simd: S,
         y: i32,
@@ -219,8 +226,18 @@ impl Clipped<'_> {
         while !edges.is_empty() || !steps.is_empty() {
             let (cluster, others) = edges.split_at(cluster(edges, crossings));
             let after = winding + net(cluster);
-            match self.weights(cluster, winding, crossings.count == 0) {
-                Some(weights) if steps.is_empty() => {
+            let plain = PLAIN && steps.is_empty();
+            let weights = plain.then(|| self.weights(cluster, winding, crossings.count == 0));
+            match weights.flatten() {
+                Some([weight, _])
+                    if is_lone(cluster, others) && area.is_beyond(cluster[0].pixels.0) =>
+                {
+                    let e = &cluster[0];
+                    if weight != 0 {
+                        area.add_lone(simd, y, &e.reach, e.pixels, f64::from(weight), sink);
+                    }
+                }
+                Some(weights) => {
                     for (i, e) in cluster.iter().enumerate() {
                         let weight = if i == 0 { weights[0] } else { weights[1] };
                         if weight != 0 && e.from < e.to {
@@ -229,7 +246,7 @@ impl Clipped<'_> {
                         }
                     }
                 }
-                _ => {
+                None => {
                     let last = cluster.iter().map(|e| e.pixels.1).max();
                     if let (Some(first), Some(last)) = (cluster.first(), last) {
                         area.open(simd, y, (first.pixels.0, last), sink);
@@ -291,6 +308,14 @@ fn cluster(edges: &[AreaEdge], crossings: &mut Crossings) -> usize {
     edges.len()
 }
 
+/// Whether the cluster is a single edge that touches few pixels, and no edge comes next to it.
+#[inline(always)]
+fn is_lone(cluster: &[AreaEdge], others: &[AreaEdge]) -> bool {
+    let [e] = cluster else { return false };
+    let (first, last) = e.pixels;
+    last - first < CHUNK && others.first().is_none_or(|o| o.pixels.0 > last + GAP)
+}
+
 /// By how much the winding number right of the edges differs from that left of them, at the top of
 /// the row.
 #[inline(always)]
@@ -312,6 +337,64 @@ pub(super) fn sort<T>(values: &mut [T], order: impl Fn(&T, &T) -> Ordering) {
         while j > 0 && order(&values[j - 1], &values[j]).is_gt() {
             values.swap(j - 1, j);
             j -= 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::FixedPoint;
+    use alloc::vec::Vec;
+    use proptest::prelude::*;
+    use scumble_geometry::FillRule;
+
+    /// What a sink hears of each pixel.
+    #[derive(Default, PartialEq, Debug)]
+    struct Areas(Vec<(i32, i32, f32)>);
+
+    impl AreaSink for Areas {
+        fn run(&mut self, y: i32, x0: i32, x1: i32) {
+            (x0..x1).for_each(|x| self.pixel(x, y, 1.0));
+        }
+        fn pixel(&mut self, x: i32, y: i32, area: f32) {
+            self.0.push((x, y, area));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_short_way_gives_the_same_bits(
+            contours in prop::collection::vec(
+                prop::collection::vec((-600..5000i32, -200..2500i32), 3..9),
+                1..4,
+            ),
+            even_odd in any::<bool>(),
+            grid in 0..8u32,
+        ) {
+            let mut builder = Polygon::builder();
+            for contour in &contours {
+                contour
+                    .iter()
+                    .for_each(|p| builder.push(FixedPoint { x: p.0 >> grid << grid, y: p.1 >> grid << grid }));
+                builder.close();
+            }
+            let rule = if even_odd { FillRule::EvenOdd } else { FillRule::NonZero };
+            let Some(polygon) = builder.finish(rule) else { return Ok(()) };
+            for rect in [polygon.bounds(), IntRect::new(3, 0, 11, 8)] {
+                let rect = rect.intersect(&polygon.bounds());
+                if rect.is_empty() {
+                    continue;
+                }
+                let clipped = Clipped { polygon: &polygon, rect };
+                let mut scratch = PolygonScratch::default();
+                let (mut short, mut long) = (Areas::default(), Areas::default());
+                dispatch!(Level::new(), simd => {
+                    clipped.rasterize::<_, true>(simd, &mut scratch, &mut short);
+                    clipped.rasterize::<_, false>(simd, &mut scratch, &mut long);
+                });
+                prop_assert_eq!(short, long);
+            }
         }
     }
 }

@@ -1,15 +1,15 @@
 //! Exact area of triangles: their winding number is 0 or 1, so signed areas simply add up.
 
 use super::Triangle;
-use crate::AreaSink;
-use crate::area::{AreaRow, CHUNK, ROW_CELLS, Reach, Slope, eight_parts};
+use crate::area::{
+    AreaRow, CHUNK, GAP, LANES, ROW_CELLS, Reach, Slope, eight_areas, eight_parts, splat, touched,
+};
+use crate::{AreaSink, FixedPoint};
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
 use scumble_geometry::IntRect;
 
 /// Rows whose crossings are found side by side.
 const BAND: usize = 8;
-
-const STEPS: [f64; 8] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 /// A side of the triangle that crosses rows.
 #[derive(Debug, Clone, Copy)]
@@ -73,66 +73,103 @@ impl Triangle {
     #[inline(always)]
     fn sides(&self) -> [Side; 3] {
         let [p, q, r] = self.corners();
-        [(p, q), (q, r), (r, p)].map(|(p, q)| {
-            // Clockwise to the eye: left sides run up. A level side has no height to add.
-            let up = p.y > q.y;
-            let (top, bottom) = if up { (q, p) } else { (p, q) };
-            let slope = if top.y < bottom.y {
-                Slope::new(top.x, top.y, bottom.x, bottom.y)
-            } else {
-                Slope { mirrored: false, x0: 0.0, y0: 0.0, run: 0.0, half_rise: 0.0 }
-            };
-            Side {
-                slope,
-                top: f64::from(top.y) * (1.0 / 256.0),
-                bottom: f64::from(bottom.y) * (1.0 / 256.0),
-                weight: if up { 1.0 } else { -1.0 },
+        [Side::new(p, q), Side::new(q, r), Side::new(r, p)]
+    }
+}
+
+impl Reaches {
+    /// [`Reach::pixels`] of each row, within the columns of `rect`.
+    #[inline(always)]
+    fn pixels(&self, mirrored: bool, rect: IntRect) -> ([i32; BAND], [i32; BAND]) {
+        let mut out = ([0; BAND], [0; BAND]);
+        if mirrored {
+            for i in 0..BAND {
+                out.0[i] = touched(true, self.to[i], rect.x0, rect.x1);
+                out.1[i] = touched(true, self.from[i], rect.x0, rect.x1);
             }
-        })
+        } else {
+            for i in 0..BAND {
+                out.0[i] = touched(false, self.from[i], rect.x0, rect.x1);
+                out.1[i] = touched(false, self.to[i], rect.x0, rect.x1);
+            }
+        }
+        out
     }
 }
 
 impl Side {
+    /// From `p` to `q`, clockwise to the eye: left sides run up. A level side has no height to add.
+    #[inline(always)]
+    fn new(p: FixedPoint, q: FixedPoint) -> Self {
+        let up = p.y > q.y;
+        let (top, bottom) = if up { (q, p) } else { (p, q) };
+        let slope = if top.y < bottom.y {
+            Slope::new(top.x, top.y, bottom.x, bottom.y)
+        } else {
+            Slope { mirrored: false, x0: 0.0, y0: 0.0, run: 0.0, half_rise: 0.0 }
+        };
+        Self {
+            slope,
+            top: f64::from(top.y) * (1.0 / 256.0),
+            bottom: f64::from(bottom.y) * (1.0 / 256.0),
+            weight: if up { 1.0 } else { -1.0 },
+        }
+    }
+
+    #[inline(always)]
+    fn reach(&self, reaches: &Reaches, i: usize) -> Reach {
+        Reach {
+            mirrored: self.slope.mirrored,
+            from: reaches.from[i],
+            to: reaches.to[i],
+            height: reaches.height[i],
+            half_rise: self.slope.half_rise,
+        }
+    }
+
     /// Where the side meets the rows from `y` on.
     #[inline(always)]
     fn reaches<S: Simd>(&self, simd: S, y: i32) -> Reaches {
-        let splat = |v: f64| f64x8::splat(simd, v);
         let Slope { x0, y0, run, .. } = self.slope;
-        let row = f64x8::from_slice(simd, &STEPS) + splat(f64::from(y));
-        let held = |y: f64x8<S>| y.max(splat(self.top)).min(splat(self.bottom));
-        let (start, end) = (held(row), held(row + splat(1.0)));
-        let along = |y: f64x8<S>| splat(x0) + (y - splat(y0)) * splat(run);
+        let (x0, y0, run) = (splat(simd, x0), splat(simd, y0), splat(simd, run));
+        let (top, bottom) = (splat(simd, self.top), splat(simd, self.bottom));
+        let row = f64x8::from_slice(simd, &LANES) + splat(simd, f64::from(y));
+        let start = row.max(top).min(bottom);
+        let end = (row + splat(simd, 1.0)).max(top).min(bottom);
         let mut out = Reaches { from: [0.0; BAND], to: [0.0; BAND], height: [0.0; BAND] };
-        along(start).store_slice(&mut out.from);
-        along(end).store_slice(&mut out.to);
+        (x0 + (start - y0) * run).store_slice(&mut out.from);
+        (x0 + (end - y0) * run).store_slice(&mut out.to);
         (end - start).store_slice(&mut out.height);
         out
     }
 }
 
+// No closures around vectors: they would not be compiled for the instruction set.
+#[inline(always)]
+fn reaches<S: Simd>(simd: S, [p, q, r]: &[Side; 3], y: i32) -> [Reaches; 3] {
+    [p.reaches(simd, y), q.reaches(simd, y), r.reaches(simd, y)]
+}
+
 /// Up to eight rows of up to eight pixels: all sides over all pixels of a row at once.
 #[inline(always)]
 fn narrow_band<S: Simd>(simd: S, sides: &[Side; 3], rect: IntRect, sink: &mut impl AreaSink) {
-    let splat = |v: f64| f64x8::splat(simd, v);
-    let reaches = [0, 1, 2].map(|k: usize| sides[k].reaches(simd, rect.y0));
-    let columns = f64x8::from_slice(simd, &STEPS) + splat(f64::from(rect.x0));
-    let mirrored = splat(-1.0) - columns;
+    let reaches = reaches(simd, sides, rect.y0);
+    let columns = f64x8::from_slice(simd, &LANES) + splat(simd, f64::from(rect.x0));
+    let mirrored = splat(simd, -1.0) - columns;
     // What is left behind in the mirror lies left of the side: the rest is right of it.
     let sign = sides.map(|s| if s.slope.mirrored { -s.weight } else { s.weight });
     let all = sides.map(|s| if s.slope.mirrored { s.weight } else { 0.0 });
     let width = (rect.x1 - rect.x0) as usize;
     for (i, y) in (rect.y0..rect.y1).enumerate().take(BAND) {
-        let mut sum = splat(0.0);
+        let mut sum = splat(simd, 0.0);
         for (k, (side, reach)) in sides.iter().zip(&reaches).enumerate() {
             let c = if side.slope.mirrored { mirrored } else { columns };
             let (height, half_rise) = (sign[k] * reach.height[i], sign[k] * side.slope.half_rise);
             let parts = eight_parts(simd, c, [reach.from[i], reach.to[i]], height, half_rise);
-            sum += splat(all[k] * reach.height[i]) + parts;
+            sum += splat(simd, all[k] * reach.height[i]) + parts;
         }
-        let mut sums = [0.0; 8];
-        sum.max(splat(0.0)).min(splat(1.0)).store_slice(&mut sums);
-        let areas = sums.map(|v| v as f32);
-        let covered = sum.simd_gt(splat(0.0)).to_bitmask() as u32 & ((1 << width) - 1);
+        let areas = eight_areas(simd, sum);
+        let covered = sum.simd_gt(splat(simd, 0.0)).to_bitmask() as u32 & ((1 << width) - 1);
         if covered != 0 {
             let first = covered.trailing_zeros() as usize;
             let end = 32 - covered.leading_zeros() as usize;
@@ -150,41 +187,75 @@ fn wide_band<S: Simd>(
     row: &mut AreaRow,
     sink: &mut impl AreaSink,
 ) {
-    let reaches = [0, 1, 2].map(|k: usize| sides[k].reaches(simd, rect.y0));
+    let reaches = reaches(simd, sides, rect.y0);
+    let pixels = [
+        reaches[0].pixels(sides[0].slope.mirrored, rect),
+        reaches[1].pixels(sides[1].slope.mirrored, rect),
+        reaches[2].pixels(sides[2].slope.mirrored, rect),
+    ];
     for (i, y) in (rect.y0..rect.y1).enumerate().take(BAND) {
-        row.begin(0.0);
-        // The pixels that the left and the right sides touch.
-        let mut ranges = [(i32::MAX, i32::MIN); 2];
-        let mut touched = [(0, 0); 3];
-        let reach = |k: usize| Reach {
-            mirrored: sides[k].slope.mirrored,
-            from: reaches[k].from[i],
-            to: reaches[k].to[i],
-            height: reaches[k].height[i],
-            half_rise: sides[k].slope.half_rise,
-        };
-        for k in 0..3 {
-            if reaches[k].height[i] > 0.0 {
-                touched[k] = reach(k).pixels(rect.x0, rect.x1);
-                let range = &mut ranges[usize::from(sides[k].weight < 0.0)];
-                *range = (range.0.min(touched[k].0), range.1.max(touched[k].1));
-            }
-        }
-        // Sides that meet may be a pixel out of order.
-        let [left, right] = ranges;
-        let together = right.0 <= left.1;
-        let first = if together { (left.0.min(right.0), left.1.max(right.1)) } else { left };
-        row.open(simd, y, first, sink);
+        // The sides that meet the row, left ones first, and the pixels that they touch.
+        let mut met = [(Reach::NONE, (0, 0), 0.0); 3];
+        let mut count = [0, 0];
         for weight in [1.0, -1.0] {
-            if weight < 0.0 && !together {
-                row.open(simd, y, right, sink);
-            }
-            for k in 0..3 {
-                if sides[k].weight == weight && reaches[k].height[i] > 0.0 {
-                    row.add(simd, &reach(k), touched[k], weight);
+            for (k, side) in sides.iter().enumerate() {
+                if side.weight == weight && reaches[k].height[i] > 0.0 {
+                    let range = (pixels[k].0[i], pixels[k].1[i]);
+                    met[count[0] + count[1]] = (side.reach(&reaches[k], i), range, weight);
+                    count[usize::from(weight < 0.0)] += 1;
                 }
             }
         }
+        row.begin(0.0);
+        let met = &met[..count[0] + count[1]];
+        if let [left, right] = met
+            && right.1.0 > left.1.1 + GAP
+            && left.1.1 - left.1.0 < CHUNK
+            && right.1.1 - right.1.0 < CHUNK
+        {
+            row.add_lone(simd, y, &left.0, left.1, left.2, sink);
+            row.add_lone(simd, y, &right.0, right.1, right.2, sink);
+        } else {
+            add_groups(simd, y, met.split_at(count[0]), row, sink);
+        }
         row.finish(simd, y, sink);
     }
+}
+
+/// A side in a row, the pixels that it touches, and its weight.
+type Met = (Reach, (i32, i32), f64);
+
+/// The left and the right sides of a row.
+#[inline(always)]
+fn add_groups<S: Simd>(
+    simd: S,
+    y: i32,
+    (left, right): (&[Met], &[Met]),
+    row: &mut AreaRow,
+    sink: &mut impl AreaSink,
+) {
+    let (first, second) = (range(left), range(right));
+    // Sides that meet may be a pixel out of order.
+    let together = second.0 <= first.1;
+    let both = (first.0.min(second.0), first.1.max(second.1));
+    row.open(simd, y, if together { both } else { first }, sink);
+    for side in left {
+        row.add(simd, &side.0, side.1, side.2);
+    }
+    if !together {
+        row.open(simd, y, second, sink);
+    }
+    for side in right {
+        row.add(simd, &side.0, side.1, side.2);
+    }
+}
+
+/// The pixels that the sides touch.
+#[inline(always)]
+fn range(sides: &[Met]) -> (i32, i32) {
+    let mut range = (i32::MAX, i32::MIN);
+    for (_, pixels, _) in sides {
+        range = (range.0.min(pixels.0), range.1.max(pixels.1));
+    }
+    range
 }
