@@ -334,9 +334,11 @@ pub(super) fn sort<T>(values: &mut [T], order: impl Fn(&T, &T) -> Ordering) {
     }
     for i in 1..values.len() {
         let mut j = i;
-        while j > 0 && order(&values[j - 1], &values[j]).is_gt() {
-            values.swap(j - 1, j);
+        while j > 0 && order(&values[j - 1], &values[i]).is_gt() {
             j -= 1;
+        }
+        if j < i {
+            values[j..=i].rotate_right(1);
         }
     }
 }
