@@ -13,7 +13,7 @@ mod slope;
 mod tests;
 
 pub(crate) use row::{AreaRow, GAP};
-pub(crate) use slope::{Reach, Slope, eight_areas, eight_parts, splat, touched};
+pub(crate) use slope::{Reach, Slope, eight_areas, eight_parts, extent, mirrored, splat, touched};
 
 /// Pixels that are summed side by side.
 pub(crate) const CHUNK: i32 = 8;

@@ -1,6 +1,6 @@
 //! The sums of one row of pixels.
 
-use super::{CHUNK, LANES, Reach, eight_areas, eight_parts, splat};
+use super::{CHUNK, LANES, Reach, eight_areas, eight_parts, mirrored, splat};
 use crate::AreaSink;
 use alloc::vec::Vec;
 use fearless_simd::{Simd, f64x8, prelude::*};
@@ -172,17 +172,13 @@ impl AreaRow {
 /// What lies right of an edge in the eight pixels from `x` on, times `weight`.
 #[inline(always)]
 fn eight_right<S: Simd>(simd: S, x: i32, reach: &Reach, weight: f64) -> f64x8<S> {
-    let lanes = f64x8::from_slice(simd, &LANES);
     let ends = [reach.from, reach.to];
-    let height = weight * reach.height;
-    let half_rise = weight * reach.half_rise;
-    if reach.mirrored {
-        // What is left behind in the mirror lies left of the edge: the rest is right of it.
-        let c = splat(simd, f64::from(-1 - x)) - lanes;
-        splat(simd, height) - eight_parts(simd, c, ends, height, half_rise)
-    } else {
-        eight_parts(simd, lanes + splat(simd, f64::from(x)), ends, height, half_rise)
-    }
+    let (sign, weighted) = (reach.sign, reach.sign * weight);
+    let (height, half_rise) = (weighted * reach.height, weighted * reach.half_rise);
+    // What is left behind in the mirror lies left of the edge: the rest is right of it.
+    let (first, all) = mirrored(sign, f64::from(x), weight * reach.height);
+    let c = f64x8::from_slice(simd, &LANES) * splat(simd, sign) + splat(simd, first);
+    splat(simd, all) + eight_parts(simd, c, ends, height, half_rise)
 }
 
 /// Hands on a stretch of equal area from `from` on and the pixels from `first` on, save those at

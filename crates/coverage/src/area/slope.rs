@@ -9,7 +9,8 @@ use fearless_simd::{Simd, f64x8, prelude::*};
 /// pixel c becomes pixel −c − 1).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Slope {
-    pub(crate) mirrored: bool,
+    /// −1 in the mirror, else +1.
+    pub(crate) sign: f64,
     pub(crate) x0: f64,
     pub(crate) y0: f64,
     /// |Δx/Δy|.
@@ -22,13 +23,13 @@ impl Slope {
     /// From (x0, y0) down to (x1, y1) in 1/256 pixel, y0 < y1.
     #[inline(always)]
     pub(crate) fn new(x0: i32, y0: i32, x1: i32, y1: i32) -> Self {
-        let mirrored = x1 < x0;
+        let sign = if x1 < x0 { -1.0 } else { 1.0 };
         let dx = (f64::from(x1) - f64::from(x0)).abs();
         let dy = f64::from(y1) - f64::from(y0);
         let x = f64::from(x0) * (1.0 / 256.0);
         Self {
-            mirrored,
-            x0: if mirrored { -x } else { x },
+            sign,
+            x0: sign * x,
             y0: f64::from(y0) * (1.0 / 256.0),
             run: dx / dy,
             half_rise: if dx == 0.0 { 0.0 } else { 0.5 * dy / dx },
@@ -44,7 +45,7 @@ impl Slope {
     /// x at a height in pixels.
     #[inline(always)]
     pub(crate) fn at(&self, y: f64) -> f64 {
-        if self.mirrored { -self.along(y) } else { self.along(y) }
+        self.sign * self.along(y)
     }
 
     /// The edge from `start`, the height at which it enters the row (the row's top or its own),
@@ -52,7 +53,7 @@ impl Slope {
     #[inline(always)]
     pub(crate) fn reach(&self, start: f64, y: f64) -> Reach {
         Reach {
-            mirrored: self.mirrored,
+            sign: self.sign,
             from: self.along(start),
             to: self.along(y),
             height: y - start,
@@ -64,7 +65,7 @@ impl Slope {
 /// An edge within one row of pixels, from where it enters it down to some height.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reach {
-    pub(crate) mirrored: bool,
+    pub(crate) sign: f64,
     /// The (mirrored) x at both ends, `from` ≤ `to`.
     pub(crate) from: f64,
     pub(crate) to: f64,
@@ -72,39 +73,42 @@ pub(crate) struct Reach {
     pub(crate) half_rise: f64,
 }
 
-/// The pixel of a (mirrored) x, held to one beyond `x0..x1`.
+/// The first and the last pixel between two x, held to one beyond `x0..x1`.
 #[inline(always)]
-pub(crate) fn touched(mirrored: bool, x: f64, x0: i32, x1: i32) -> i32 {
-    // Held while still real: the numbers may be far outside. In the mirror a whole number belongs
-    // to the pixel on its other side.
+pub(crate) fn touched([left, right]: [f64; 2], x0: i32, x1: i32) -> (i32, i32) {
+    // Held while still real: the numbers may be far outside.
     let (low, high) = (f64::from(x0) - 1.0, f64::from(x1));
-    if mirrored {
-        -1 - low_bits(floor(x.max(-1.0 - high).min(-1.0 - low)))
-    } else {
-        low_bits(floor(x.max(low).min(high)))
-    }
+    let column = |x: f64| low_bits(floor(smaller(larger(x, low), high)));
+    (column(left), column(right))
+}
+
+// One instruction each, as they need not care about NaN.
+#[inline(always)]
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// From left to right: two (mirrored) x of an edge.
+#[inline(always)]
+pub(crate) fn extent(sign: f64, from: f64, to: f64) -> [f64; 2] {
+    let (a, b) = (sign * from, sign * to);
+    [smaller(a, b), larger(a, b)]
 }
 
 impl Reach {
     /// Of no height.
     pub(crate) const NONE: Self =
-        Self { mirrored: false, from: 0.0, to: 0.0, height: 0.0, half_rise: 0.0 };
+        Self { sign: 1.0, from: 0.0, to: 0.0, height: 0.0, half_rise: 0.0 };
 
     /// The leftmost and the rightmost x.
     #[inline(always)]
-    pub(crate) fn extent(&self) -> (f64, f64) {
-        if self.mirrored { (-self.to, -self.from) } else { (self.from, self.to) }
-    }
-
-    /// The first and the last pixel that it touches, held to one beyond `x0..x1`.
-    #[inline(always)]
-    pub(crate) fn pixels(&self, x0: i32, x1: i32) -> (i32, i32) {
-        let touched = |x: f64| touched(self.mirrored, x, x0, x1);
-        if self.mirrored {
-            (touched(self.to), touched(self.from))
-        } else {
-            (touched(self.from), touched(self.to))
-        }
+    pub(crate) fn extent(&self) -> [f64; 2] {
+        extent(self.sign, self.from, self.to)
     }
 
     /// ∫ clamp(c + 1 − x(t), 0, 1) dt for a (mirrored) pixel c: the definition.
@@ -151,6 +155,14 @@ pub(crate) fn eight_parts<S: Simd>(
     let sum = (before - from) + (after - from);
     let beyond = (end - to).max(splat(simd, 0.0)).min(splat(simd, 1.0));
     (within * sum + splat(simd, height) * beyond + splat(simd, ROUNDER)) - splat(simd, ROUNDER)
+}
+
+/// For a `sign` of −1 the mirror of pixel `x`, and what is to be added to the part left behind there:
+/// `all`. For +1 the pixel itself, and nothing. (Without a branch, which nobody could foresee.)
+#[inline(always)]
+pub(crate) fn mirrored(sign: f64, x: f64, all: f64) -> (f64, f64) {
+    let is_mirrored = 0.5 - 0.5 * sign;
+    (sign * x - is_mirrored, is_mirrored * all)
 }
 
 /// Eight times the same. (A function, as a closure would not be compiled for the instruction set.)

@@ -32,7 +32,7 @@ fn reach([x0, y0, x1, y1]: [i32; 4]) -> Reach {
 
 /// What lies right of the edge in pixel x, by the definition.
 fn right(reach: &Reach, x: i32) -> f64 {
-    if reach.mirrored {
+    if reach.sign < 0.0 {
         reach.height - reach.part(f64::from(-1 - x))
     } else {
         reach.part(f64::from(x))
@@ -47,7 +47,7 @@ proptest! {
     ) {
         let clip = (clip.0, (clip.0 + clip.1).min(WIDTH));
         edges.sort_by(|a, b| {
-            let left = |e: [i32; 4]| reach(e).extent().0;
+            let left = |e: [i32; 4]| reach(e).extent()[0];
             left(a.0).total_cmp(&left(b.0))
         });
         let mut row = AreaRow::default();
@@ -57,7 +57,7 @@ proptest! {
             row.begin(0.0);
             for (i, (e, up)) in edges.iter().enumerate() {
                 let (reach, weight) = (reach(*e), if *up { -1.0 } else { 1.0 });
-                let pixels = reach.pixels(clip.0, clip.1);
+                let pixels = touched(reach.extent(), clip.0, clip.1);
                 let is_last = i + 1 == edges.len();
                 if is_last && pixels.1 - pixels.0 < CHUNK && row.is_beyond(pixels.0) {
                     row.add_lone(simd, 0, &reach, pixels, weight, &mut found);

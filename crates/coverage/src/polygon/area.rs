@@ -12,7 +12,7 @@ use super::rows::{ActiveEdge, PolygonScratch, Rows};
 use super::strips::Strips;
 use super::{Polygon, PolygonEdge};
 use crate::AreaSink;
-use crate::area::{AreaRow, CHUNK, GAP, ROW_CELLS, Reach, Slope};
+use crate::area::{AreaRow, CHUNK, GAP, ROW_CELLS, Reach, Slope, touched};
 use core::cmp::Ordering;
 use fearless_simd::{Level, Simd, dispatch};
 use scumble_geometry::IntRect;
@@ -35,7 +35,7 @@ pub(super) struct AreaEdge {
     to: i32,
     pub(super) reach: Reach,
     /// The leftmost and the rightmost x.
-    extent: (f64, f64),
+    extent: [f64; 2],
     pub(super) pixels: (i32, i32),
 }
 
@@ -50,8 +50,8 @@ impl From<PolygonEdge> for AreaEdge {
             winding: e.winding,
             from: 0,
             to: 0,
-            reach: slope.reach(0.0, 0.0),
-            extent: (0.0, 0.0),
+            reach: Reach::NONE,
+            extent: [0.0; 2],
             pixels: (0, 0),
         }
     }
@@ -75,7 +75,7 @@ impl AreaEdge {
         let (start, end) = self.heights(y);
         self.reach = self.slope.reach(start, end);
         self.extent = self.reach.extent();
-        self.pixels = self.reach.pixels(rect.x0, rect.x1);
+        self.pixels = touched(self.extent, rect.x0, rect.x1);
     }
 
     /// The heights in pixels between which it runs in row `y`.
@@ -88,10 +88,7 @@ impl AreaEdge {
     /// From left to right at `self.from`, those that meet there as they go on; the same for two
     /// edges between the same heights at their bottom.
     fn is_left_of(&self, other: &Self) -> bool {
-        let ends = |e: &Self| {
-            let (from, to) = (e.reach.from, e.reach.to);
-            if e.reach.mirrored { (-from, -to) } else { (from, to) }
-        };
+        let ends = |e: &Self| (e.reach.sign * e.reach.from, e.reach.sign * e.reach.to);
         let (a, b) = (ends(self), ends(other));
         a.0 <= b.0 && a.1 <= b.1
     }
@@ -202,7 +199,7 @@ impl Clipped<'_> {
         for e in &mut rows.active {
             e.enter(y, grain, self.rect);
         }
-        sort(&mut rows.active, |a, b| a.extent.0.total_cmp(&b.extent.0));
+        sort(&mut rows.active, |a, b| a.extent[0].total_cmp(&b.extent[0]));
     }
 
     /// Adds one row of pixels to the sums, cluster by cluster.
@@ -299,11 +296,11 @@ impl Clipped<'_> {
 fn cluster(edges: &[AreaEdge], crossings: &mut Crossings) -> usize {
     let mut right = f64::NEG_INFINITY;
     for (i, e) in edges.iter().enumerate() {
-        if e.extent.0 >= right && crossings.count == 0 && i > 0 {
+        if e.extent[0] >= right && crossings.count == 0 && i > 0 {
             return i;
         }
         crossings.add_edge(e);
-        right = right.max(e.extent.1);
+        right = right.max(e.extent[1]);
     }
     edges.len()
 }

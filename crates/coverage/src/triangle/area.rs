@@ -2,7 +2,8 @@
 
 use super::Triangle;
 use crate::area::{
-    AreaRow, CHUNK, GAP, LANES, ROW_CELLS, Reach, Slope, eight_areas, eight_parts, splat, touched,
+    AreaRow, CHUNK, GAP, LANES, ROW_CELLS, Reach, Slope, eight_areas, eight_parts, extent,
+    mirrored, splat, touched,
 };
 use crate::{AreaSink, FixedPoint};
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
@@ -78,20 +79,13 @@ impl Triangle {
 }
 
 impl Reaches {
-    /// [`Reach::pixels`] of each row, within the columns of `rect`.
+    /// The first and the last pixel that the side touches in each row, within the columns of `rect`.
     #[inline(always)]
-    fn pixels(&self, mirrored: bool, rect: IntRect) -> ([i32; BAND], [i32; BAND]) {
+    fn pixels(&self, sign: f64, rect: IntRect) -> ([i32; BAND], [i32; BAND]) {
         let mut out = ([0; BAND], [0; BAND]);
-        if mirrored {
-            for i in 0..BAND {
-                out.0[i] = touched(true, self.to[i], rect.x0, rect.x1);
-                out.1[i] = touched(true, self.from[i], rect.x0, rect.x1);
-            }
-        } else {
-            for i in 0..BAND {
-                out.0[i] = touched(false, self.from[i], rect.x0, rect.x1);
-                out.1[i] = touched(false, self.to[i], rect.x0, rect.x1);
-            }
+        for i in 0..BAND {
+            let ends = extent(sign, self.from[i], self.to[i]);
+            (out.0[i], out.1[i]) = touched(ends, rect.x0, rect.x1);
         }
         out
     }
@@ -106,7 +100,7 @@ impl Side {
         let slope = if top.y < bottom.y {
             Slope::new(top.x, top.y, bottom.x, bottom.y)
         } else {
-            Slope { mirrored: false, x0: 0.0, y0: 0.0, run: 0.0, half_rise: 0.0 }
+            Slope { sign: 1.0, x0: 0.0, y0: 0.0, run: 0.0, half_rise: 0.0 }
         };
         Self {
             slope,
@@ -119,7 +113,7 @@ impl Side {
     #[inline(always)]
     fn reach(&self, reaches: &Reaches, i: usize) -> Reach {
         Reach {
-            mirrored: self.slope.mirrored,
+            sign: self.slope.sign,
             from: reaches.from[i],
             to: reaches.to[i],
             height: reaches.height[i],
@@ -155,16 +149,22 @@ fn reaches<S: Simd>(simd: S, [p, q, r]: &[Side; 3], y: i32) -> [Reaches; 3] {
 fn narrow_band<S: Simd>(simd: S, sides: &[Side; 3], rect: IntRect, sink: &mut impl AreaSink) {
     let reaches = reaches(simd, sides, rect.y0);
     let columns = f64x8::from_slice(simd, &LANES) + splat(simd, f64::from(rect.x0));
-    let mirrored = splat(simd, -1.0) - columns;
     // What is left behind in the mirror lies left of the side: the rest is right of it.
-    let sign = sides.map(|s| if s.slope.mirrored { -s.weight } else { s.weight });
-    let all = sides.map(|s| if s.slope.mirrored { s.weight } else { 0.0 });
+    let mut corners = [columns; 3];
+    let (mut weighted, mut all) = ([0.0; 3], [0.0; 3]);
+    for (k, side) in sides.iter().enumerate() {
+        let sign = side.slope.sign;
+        let (shift, rest) = mirrored(sign, 0.0, side.weight);
+        corners[k] = columns * splat(simd, sign) + splat(simd, shift);
+        (weighted[k], all[k]) = (sign * side.weight, rest);
+    }
     let width = (rect.x1 - rect.x0) as usize;
     for (i, y) in (rect.y0..rect.y1).enumerate().take(BAND) {
         let mut sum = splat(simd, 0.0);
         for (k, (side, reach)) in sides.iter().zip(&reaches).enumerate() {
-            let c = if side.slope.mirrored { mirrored } else { columns };
-            let (height, half_rise) = (sign[k] * reach.height[i], sign[k] * side.slope.half_rise);
+            let height = weighted[k] * reach.height[i];
+            let half_rise = weighted[k] * side.slope.half_rise;
+            let c = corners[k];
             let parts = eight_parts(simd, c, [reach.from[i], reach.to[i]], height, half_rise);
             sum += splat(simd, all[k] * reach.height[i]) + parts;
         }
@@ -189,9 +189,9 @@ fn wide_band<S: Simd>(
 ) {
     let reaches = reaches(simd, sides, rect.y0);
     let pixels = [
-        reaches[0].pixels(sides[0].slope.mirrored, rect),
-        reaches[1].pixels(sides[1].slope.mirrored, rect),
-        reaches[2].pixels(sides[2].slope.mirrored, rect),
+        reaches[0].pixels(sides[0].slope.sign, rect),
+        reaches[1].pixels(sides[1].slope.sign, rect),
+        reaches[2].pixels(sides[2].slope.sign, rect),
     ];
     for (i, y) in (rect.y0..rect.y1).enumerate().take(BAND) {
         // The sides that meet the row, left ones first, and the pixels that they touch.
