@@ -4,7 +4,10 @@
 //! 1,000 of 50,000; T5, 10,000 of 500. Corners lie on the 1/256 grid, as in the peers' scenes.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{
+    BatchSize, BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main,
+};
 use scumble_coverage::*;
 use std::hint::black_box;
 
@@ -109,6 +112,38 @@ fn shapes(points: &[[DVec2; 3]]) -> Vec<Shape> {
     points.iter().filter_map(|&p| Shape::triangle(p).unwrap()).collect()
 }
 
+/// By samples, by area, and by area without a picture.
+fn each_way(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, shapes: &[Shape], clip: IntRect) {
+    let mut paint = Paint::new();
+    let mut scratch = Scratch::new();
+    for samples in [1, 4, 16] {
+        let pattern = SamplePattern::standard(samples).unwrap();
+        group.bench_function(BenchmarkId::new(name, samples), |b| {
+            b.iter(|| {
+                for s in shapes {
+                    s.rasterize(clip, &pattern, &mut scratch, &mut paint);
+                }
+            });
+        });
+    }
+    group.bench_function(BenchmarkId::new(name, "area"), |b| {
+        b.iter(|| {
+            for s in shapes {
+                s.rasterize_area(clip, &mut scratch, &mut paint);
+            }
+        });
+    });
+    let mut count = Count::default();
+    group.bench_function(BenchmarkId::new(name, "area, not painted"), |b| {
+        b.iter(|| {
+            for s in shapes {
+                s.rasterize_area(clip, &mut scratch, &mut count);
+            }
+        });
+    });
+    black_box((&paint.pixels, count.0));
+}
+
 fn coverage(c: &mut Criterion) {
     let mut group = c.benchmark_group("coverage");
     group.sample_size(10);
@@ -118,35 +153,7 @@ fn coverage(c: &mut Criterion) {
         group.bench_function(BenchmarkId::new(name, "setup"), |b| {
             b.iter_batched(|| (), |()| black_box(self::shapes(&points)), BatchSize::PerIteration);
         });
-        let mut paint = Paint::new();
-        let mut scratch = Scratch::new();
-        for samples in [1, 4, 16] {
-            let pattern = SamplePattern::standard(samples).unwrap();
-            group.bench_function(BenchmarkId::new(name, samples), |b| {
-                b.iter(|| {
-                    for s in &shapes {
-                        s.rasterize(FRAME, &pattern, &mut scratch, &mut paint);
-                    }
-                });
-            });
-        }
-        group.bench_function(BenchmarkId::new(name, "area"), |b| {
-            b.iter(|| {
-                for s in &shapes {
-                    s.rasterize_area(FRAME, &mut scratch, &mut paint);
-                }
-            });
-        });
-        group.bench_function(BenchmarkId::new(name, "area, not painted"), |b| {
-            let mut count = Count::default();
-            b.iter(|| {
-                for s in &shapes {
-                    s.rasterize_area(FRAME, &mut scratch, &mut count);
-                }
-            });
-            black_box(count.0);
-        });
-        black_box(&paint.pixels);
+        each_way(&mut group, name, &shapes, FRAME);
     }
     group.finish();
 }
@@ -212,41 +219,10 @@ fn curves(scale: f64, stroked: bool) -> Vec<Shape> {
 fn paths(c: &mut Criterion) {
     let mut group = c.benchmark_group("paths");
     group.sample_size(10);
-    let mut paint = Paint::new();
-    let mut scratch = Scratch::new();
-    for (name, scale, stroked) in
-        [("900", 1.0, false), ("900 stroked", 1.0, true), ("1920", 2.2, false)]
-    {
-        let shapes = curves(scale, stroked);
-        let clip = IntRect::new(0, 0, 900, 900);
-        let clip = if scale > 1.0 { FRAME } else { clip };
-        for samples in [1, 4, 16] {
-            let pattern = SamplePattern::standard(samples).unwrap();
-            group.bench_function(BenchmarkId::new(name, samples), |b| {
-                b.iter(|| {
-                    for s in &shapes {
-                        s.rasterize(clip, &pattern, &mut scratch, &mut paint);
-                    }
-                });
-            });
-        }
-        group.bench_function(BenchmarkId::new(name, "area"), |b| {
-            b.iter(|| {
-                for s in &shapes {
-                    s.rasterize_area(clip, &mut scratch, &mut paint);
-                }
-            });
-        });
-        group.bench_function(BenchmarkId::new(name, "area, not painted"), |b| {
-            let mut count = Count::default();
-            b.iter(|| {
-                for s in &shapes {
-                    s.rasterize_area(clip, &mut scratch, &mut count);
-                }
-            });
-            black_box(count.0);
-        });
-    }
+    let small = IntRect::new(0, 0, 900, 900);
+    each_way(&mut group, "900", &curves(1.0, false), small);
+    each_way(&mut group, "900 stroked", &curves(1.0, true), small);
+    each_way(&mut group, "1920", &curves(2.2, false), FRAME);
     group.finish();
 }
 
