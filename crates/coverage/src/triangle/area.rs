@@ -147,26 +147,28 @@ fn reaches<S: Simd>(simd: S, [p, q, r]: &[Side; 3], y: i32) -> [Reaches; 3] {
 /// Up to eight rows of up to eight pixels: all sides over all pixels of a row at once.
 #[inline(always)]
 fn narrow_band<S: Simd>(simd: S, sides: &[Side; 3], rect: IntRect, sink: &mut impl AreaSink) {
-    let reaches = reaches(simd, sides, rect.y0);
+    let mut reaches = reaches(simd, sides, rect.y0);
     let columns = f64x8::from_slice(simd, &LANES) + splat(simd, f64::from(rect.x0));
     // What is left behind in the mirror lies left of the side: the rest is right of it.
     let mut corners = [columns; 3];
-    let (mut weighted, mut all) = ([0.0; 3], [0.0; 3]);
-    for (k, side) in sides.iter().enumerate() {
+    let mut half_rises = [0.0; 3];
+    let mut rest = [0.0; BAND];
+    for (k, (side, reach)) in sides.iter().zip(&mut reaches).enumerate() {
         let sign = side.slope.sign;
-        let (shift, rest) = mirrored(sign, 0.0, side.weight);
+        let (shift, all) = mirrored(sign, 0.0, side.weight);
         corners[k] = columns * splat(simd, sign) + splat(simd, shift);
-        (weighted[k], all[k]) = (sign * side.weight, rest);
+        half_rises[k] = sign * side.weight * side.slope.half_rise;
+        for (rest, height) in rest.iter_mut().zip(&mut reach.height) {
+            *rest += all * *height;
+            *height *= sign * side.weight;
+        }
     }
     let width = (rect.x1 - rect.x0) as usize;
     for (i, y) in (rect.y0..rect.y1).enumerate().take(BAND) {
-        let mut sum = splat(simd, 0.0);
-        for (k, (side, reach)) in sides.iter().zip(&reaches).enumerate() {
-            let height = weighted[k] * reach.height[i];
-            let half_rise = weighted[k] * side.slope.half_rise;
-            let c = corners[k];
-            let parts = eight_parts(simd, c, [reach.from[i], reach.to[i]], height, half_rise);
-            sum += splat(simd, all[k] * reach.height[i]) + parts;
+        let mut sum = splat(simd, rest[i]);
+        for (k, reach) in reaches.iter().enumerate() {
+            let ends = [reach.from[i], reach.to[i]];
+            sum += eight_parts(simd, corners[k], ends, reach.height[i], half_rises[k]);
         }
         let areas = eight_areas(simd, sum);
         let covered = sum.simd_gt(splat(simd, 0.0)).to_bitmask() as u32 & ((1 << width) - 1);
