@@ -1,6 +1,6 @@
 //! The sums of one row of pixels.
 
-use super::{CHUNK, LANES, Reach, eight_areas, eight_parts, mirrored, splat};
+use super::{CHUNK, LANES, Reach, eight_areas, eight_parts, mirrored, splat, touched};
 use crate::AreaSink;
 use alloc::vec::Vec;
 use fearless_simd::{Simd, f64x8, prelude::*};
@@ -102,6 +102,12 @@ impl AreaRow {
             sum.store_slice(cells);
             at += CHUNK;
         }
+    }
+
+    /// The first and the last pixel between two x, held to one beyond the clip.
+    #[inline(always)]
+    pub(crate) fn touched(&self, extent: [f64; 2]) -> (i32, i32) {
+        touched(extent, self.x0, self.x1)
     }
 
     /// Whether a group from pixel `first` on would be a new one.

@@ -6,7 +6,7 @@
 
 use super::Polygon;
 use super::area::{AreaEdge, sort};
-use crate::area::{AreaRow, Slope};
+use crate::area::{AreaRow, Slope, extent};
 use alloc::vec::Vec;
 use fearless_simd::Simd;
 
@@ -34,7 +34,6 @@ pub(super) struct Strips {
 #[derive(Debug, Clone, Copy)]
 struct Live {
     slope: Slope,
-    pixels: (i32, i32),
     start: f64,
     end: f64,
     winding: i32,
@@ -186,7 +185,6 @@ impl Live {
         let (start, end) = edge.heights(y);
         (start < end).then_some(Self {
             slope: edge.slope,
-            pixels: edge.pixels,
             start,
             end,
             winding: edge.winding,
@@ -206,16 +204,20 @@ impl Live {
         }
     }
 
-    /// What lies right of the edge down to `y`, less what does so down to where the weight began.
+    /// What lies right of the edge down to `y`, less what does so down to where the weight began. They
+    /// differ by the whole height or not at all, save in the pixels that the edge touches in between.
     #[inline]
     fn flush<S: Simd>(&self, simd: S, y: f64, area: &mut AreaRow) {
         if self.weight == 0 || self.since >= y {
             return;
         }
         let weight = f64::from(self.weight);
-        area.add(simd, &self.slope.reach(self.start, y), self.pixels, weight);
+        let (above, below) =
+            (self.slope.reach(self.start, self.since), self.slope.reach(self.start, y));
+        let pixels = area.touched(extent(below.sign, above.to, below.to));
+        area.add(simd, &below, pixels, weight);
         if self.since > self.start {
-            area.add(simd, &self.slope.reach(self.start, self.since), self.pixels, -weight);
+            area.add(simd, &above, pixels, -weight);
         }
     }
 }
