@@ -126,6 +126,7 @@ mod interpolate;
 mod mask;
 mod pattern;
 mod polygon;
+mod projective;
 mod scratch;
 mod shape;
 mod sink;
