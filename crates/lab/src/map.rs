@@ -72,6 +72,12 @@ impl Map {
         Self { pieces, texture }
     }
 
+    /// The same without triangles: what a frame takes before anything is covered.
+    #[must_use]
+    pub fn blank() -> Self {
+        Self { pieces: Vec::new(), texture: Image::default() }
+    }
+
     /// As a scene for the driver: each triangle in its flat colour, or with its part of the map.
     #[must_use]
     pub fn scene(&self, textured: bool) -> Scene {

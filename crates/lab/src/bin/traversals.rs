@@ -21,7 +21,7 @@ const FRAMES: usize = 15;
 
 /// One row of the table.
 enum Way {
-    Traversal(Traversal),
+    Traversal(Map, Traversal),
     Driver(Scene, Sampler),
 }
 
@@ -50,7 +50,7 @@ fn run() -> Result<(), Box<dyn Error>> {
         for (cell, times) in times.iter_mut().enumerate() {
             let (row, samples) = (cell / SAMPLES.len(), SAMPLES[cell % SAMPLES.len()]);
             let (way, threads) = (&ways[row / THREADS.len()].1, THREADS[row % THREADS.len()]);
-            times.push(measure(&map, way, samples, threads, &mut canvas)?);
+            times.push(measure(way, samples, threads, &mut canvas)?);
         }
     }
     println!("| | threads | 1 sample | 4 | 9 | 16 |\n|---|---|---|---|---|---|");
@@ -70,12 +70,14 @@ fn run() -> Result<(), Box<dyn Error>> {
 fn ways(map: &Map) -> Vec<(&'static str, Way)> {
     let nearest = Sampler::DEFAULT.with(PixelFilter::Nearest, LevelMode::Zero);
     let trilinear = Sampler::DEFAULT.with(PixelFilter::Bilinear, LevelMode::Linear);
+    let by = |traversal| Way::Traversal(map.clone(), traversal);
     vec![
-        ("bounding box", Way::Traversal(Traversal::BoundingBox)),
-        ("incremental, row by row", Way::Traversal(Traversal::Incremental(Order::RowMajor))),
-        ("incremental, zig-zag", Way::Traversal(Traversal::Incremental(Order::ZigZag))),
-        ("scanline", Way::Traversal(Traversal::Scanline)),
-        ("tiled", Way::Traversal(Traversal::Tiled)),
+        ("nothing: clear and resolve", Way::Traversal(Map::blank(), Traversal::Tiled)),
+        ("bounding box", by(Traversal::BoundingBox)),
+        ("incremental, row by row", by(Traversal::Incremental(Order::RowMajor))),
+        ("incremental, zig-zag", by(Traversal::Incremental(Order::ZigZag))),
+        ("scanline", by(Traversal::Scanline)),
+        ("tiled", by(Traversal::Tiled)),
         ("the driver, flat", Way::Driver(map.scene(false), nearest)),
         ("the driver, nearest texel", Way::Driver(map.scene(true), nearest)),
         ("the driver, trilinear", Way::Driver(map.scene(true), trilinear)),
@@ -85,7 +87,6 @@ fn ways(map: &Map) -> Vec<(&'static str, Way)> {
 
 /// The median frame of one run.
 fn measure(
-    map: &Map,
     way: &Way,
     samples: usize,
     threads: usize,
@@ -93,7 +94,7 @@ fn measure(
 ) -> Result<f64, Box<dyn Error>> {
     let pattern = SamplePattern::grid(samples)?;
     match way {
-        Way::Traversal(traversal) => {
+        Way::Traversal(map, traversal) => {
             let [times] = timing::frames(FRAMES, || {
                 let mut draw = || map.draw(*traversal, &pattern, threads, canvas);
                 Ok::<_, Infallible>([timing::clock(|| Ok::<_, Infallible>(draw()))?])
