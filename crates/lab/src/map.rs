@@ -148,7 +148,7 @@ fn place(uv: DVec2) -> DVec2 {
     let swell = cos(uv.x * TAU * 0.9 - uv.y * 2.0);
     DVec2::new(
         40.0 + 720.0 * uv.x + 20.0 * swell,
-        65.0 + 490.0 * uv.y + 45.0 * wave - 20.0 * swell * uv.y,
+        65.0 + 460.0 * uv.y + 45.0 * wave - 20.0 * swell * uv.y,
     )
 }
 

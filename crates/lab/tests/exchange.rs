@@ -15,7 +15,7 @@ use std::process::{Command as Process, Output};
 fn picture(frame: &Frame) -> Image<[u8; 4]> {
     let mut settings = Settings::new(frame.width, frame.height);
     settings.pattern = SamplePattern::default();
-    render_image(&frame.scene, &settings).unwrap()
+    render_image(&frame.scene, &settings).expect("a small picture")
 }
 
 #[test]
@@ -64,10 +64,10 @@ fn what_is_wrong_with_a_display_list_is_said_with_its_line() {
 /// Writes a scene of triangles and returns the path of its JSON file.
 fn mesh(folder: &Path, vertices: &[[f32; 10]], texture: bool) -> std::path::PathBuf {
     let bytes: Vec<u8> = vertices.as_flattened().iter().flat_map(|v| v.to_le_bytes()).collect();
-    fs::write(folder.join("t.f32"), bytes).unwrap();
+    fs::write(folder.join("t.f32"), bytes).expect("writing");
     let texels = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [255, 255, 0, 255u8]];
     let (file, color) = (folder.join("t.png"), image::ColorType::Rgba8);
-    image::save_buffer(file, texels.as_flattened(), 4, 1, color).unwrap();
+    image::save_buffer(file, texels.as_flattened(), 4, 1, color).expect("writing");
     let texture = if texture { "\"t.png\"" } else { "null" };
     let json = format!(
         r#"{{"width": 8, "height": 4, "clear": [0, 0, 0, 255], "vertices": "t.f32",
@@ -75,7 +75,7 @@ fn mesh(folder: &Path, vertices: &[[f32; 10]], texture: bool) -> std::path::Path
         vertices.len()
     );
     let path = folder.join("t.json");
-    fs::write(&path, json).unwrap();
+    fs::write(&path, json).expect("writing");
     path
 }
 
@@ -123,7 +123,7 @@ fn what_lies_behind_the_eye_is_not_drawn() {
 }
 
 fn bench(args: &[&str]) -> Output {
-    Process::new(env!("CARGO_BIN_EXE_scene_bench")).args(args).output().unwrap()
+    Process::new(env!("CARGO_BIN_EXE_scene_bench")).args(args).output().expect("it starts")
 }
 
 #[test]
