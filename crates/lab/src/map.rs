@@ -211,11 +211,19 @@ impl Band<'_> {
     /// The mean of each pixel's samples; those that nothing covers are white.
     fn resolve(&self, pixels: &mut [[u8; 4]]) {
         let scale = 1.0 / self.samples as f32;
-        for (pixel, &sum) in pixels.iter_mut().zip(&*self.sums) {
+        let mean = |sum: u64| {
             let lane = |k: u32| (sum >> (16 * k)) as u16;
             let white = (self.samples as u16 - lane(3)) * 255;
             let mean = |k: u32| (f32::from(lane(k) + white) * scale + 0.5) as u8;
-            *pixel = [mean(0), mean(1), mean(2), 255];
+            [mean(0), mean(1), mean(2), 255]
+        };
+        // Most pixels are as the one before.
+        let (mut before, mut color) = (0, mean(0));
+        for (pixel, &sum) in pixels.iter_mut().zip(&*self.sums) {
+            if sum != before {
+                (before, color) = (sum, mean(sum));
+            }
+            *pixel = color;
         }
     }
 
