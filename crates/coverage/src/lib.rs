@@ -119,6 +119,7 @@ mod interpolate;
 mod mask;
 mod pattern;
 mod polygon;
+mod projective;
 mod scratch;
 mod shape;
 mod sink;

@@ -83,6 +83,10 @@ impl<const N: usize> Ramp<N> {
 
     /// A NaN becomes the lower bound.
     fn clamp(&self, value: [f32; N]) -> [f32; N] {
-        core::array::from_fn(|i| value[i].max(self.low[i]).min(self.high[i]))
+        // Comparisons in this form are one instruction each.
+        core::array::from_fn(|i| {
+            let v = if value[i] > self.low[i] { value[i] } else { self.low[i] };
+            if v < self.high[i] { v } else { self.high[i] }
+        })
     }
 }

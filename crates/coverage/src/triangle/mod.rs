@@ -2,6 +2,7 @@
 
 mod area;
 mod narrow;
+mod spans;
 mod tiled;
 mod wide;
 
