@@ -39,6 +39,9 @@ pub enum RenderError<E> {
         /// Why.
         source: TextureError,
     },
+    /// The textures that were given are of another scene, or were made for other settings.
+    #[error("the textures were made for another scene or for other settings")]
+    Textures,
     /// The threads could not be started.
     #[error("cannot start the threads: {0}")]
     Threads(String),

@@ -19,11 +19,12 @@ mod render;
 mod schedule;
 mod settings;
 mod sink;
+mod textures;
 mod tile;
 
 pub use control::{Control, Progress};
 pub use error::RenderError;
-pub use render::{Stats, render, render_image};
+pub use render::{Stats, render, render_image, render_with};
 pub use scumble_coverage as coverage;
 pub use scumble_framebuffer as framebuffer;
 pub use scumble_geometry as geometry;
@@ -35,3 +36,4 @@ pub use settings::{
     Settings, Shading,
 };
 pub use sink::{ImageSink, Sink};
+pub use textures::Textures;

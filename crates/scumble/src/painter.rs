@@ -67,7 +67,7 @@ impl Painter<'_> {
 
     /// Evaluates and blends the samples of a mask, each at its own position.
     fn samples(&mut self, x: i32, y: i32, mask: u64) {
-        let surfaces = &self.job.plan.surfaces;
+        let surfaces = self.job.plan.surfaces;
         let share = 1.0 / (self.pattern().len() as f64).sqrt();
         self.colors.clear();
         for (i, &offset) in self.job.settings.pattern.offsets().iter().enumerate() {
@@ -105,7 +105,7 @@ impl Sink for Painter<'_> {
         }
         self.colors.clear();
         self.colors.resize(x1.abs_diff(x0) as usize, Premul::TRANSPARENT);
-        self.paint.row(&self.job.plan.surfaces, centre(x0, y), self.colors);
+        self.paint.row(self.job.plan.surfaces, centre(x0, y), self.colors);
         self.tile.blend_run(x, local_y, self.colors);
     }
 
@@ -117,7 +117,7 @@ impl Sink for Painter<'_> {
             Paint::Solid(color) => *color,
             paint => {
                 let fallback = || centroid(x, y, self.pattern(), mask);
-                paint.at(&self.job.plan.surfaces, centre(x, y), fallback)
+                paint.at(self.job.plan.surfaces, centre(x, y), fallback)
             }
         };
         let (lx, ly) = self.local(x, y);
@@ -150,7 +150,7 @@ impl AreaSink for Painter<'_> {
             return self.tile.blend_areas(x, local_y, areas, *color);
         }
         let x1 = x0 + areas.len() as i32;
-        let surfaces = &self.job.plan.surfaces;
+        let surfaces = self.job.plan.surfaces;
         self.colors.clear();
         self.colors.resize(areas.len(), Premul::TRANSPARENT);
         if self.paint.sees_all(IntRect { x0, y0: y, x1, y1: y + 1 }) {

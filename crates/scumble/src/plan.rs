@@ -74,7 +74,7 @@ pub(crate) struct Layer {
 
 /// What the tiles replay.
 #[derive(Debug)]
-pub(crate) struct Plan {
+pub(crate) struct Plan<'a> {
     pub(crate) draws: Vec<Draw>,
     /// By draw: the pixels of the canvas that it may touch. Apart from the rest, since it is asked
     /// for much more often.
@@ -83,11 +83,15 @@ pub(crate) struct Plan {
     /// About what the outlines take, in bytes.
     pub(crate) outline_bytes: u64,
     /// By image index; `None` where no command uses the image.
-    pub(crate) surfaces: Vec<Option<Surface>>,
+    pub(crate) surfaces: &'a [Option<Surface>],
 }
 
 /// Makes the primitives of a scene for given settings.
-pub(crate) fn build(scene: &Scene, settings: &Settings, surfaces: Vec<Option<Surface>>) -> Plan {
+pub(crate) fn build<'a>(
+    scene: &Scene,
+    settings: &'a Settings,
+    surfaces: &'a [Option<Surface>],
+) -> Plan<'a> {
     let canvas = IntRect::new(0, 0, settings.width as i32, settings.height as i32);
     let mut planner = Planner {
         settings,
@@ -123,7 +127,7 @@ struct Planner<'a> {
     layer: u32,
     /// The last transform, and what came of it: most have the one of the primitive before.
     last: Option<(Homography, Homography)>,
-    plan: Plan,
+    plan: Plan<'a>,
 }
 
 impl Planner<'_> {

@@ -1,12 +1,11 @@
-use crate::plan::{self, Plan, Surface};
+use crate::plan::{self, Plan};
 use crate::schedule::{self, Pool};
 use crate::tile::Job;
-use crate::{Background, Control, ImageSink, RenderError, Settings, Sink};
+use crate::{Background, Control, ImageSink, RenderError, Settings, Sink, Textures};
 use scumble_framebuffer::{Tile, Visibility};
 use scumble_geometry::{IntRect, TileBins, TileGrid};
 use scumble_pixel::{Image, Premul};
-use scumble_scene::{Command, ImageId, ImageWrap, Scene, SceneImage};
-use scumble_texture::{LevelMode, Levels, Texture, TextureOptions, Wrap};
+use scumble_scene::Scene;
 use std::convert::Infallible;
 
 /// Canvases are positioned in `i32` pixels, with room for neighbours to be computed.
@@ -41,11 +40,43 @@ pub fn render<S: Sink>(
     sink: &mut S,
     control: &Control<'_>,
 ) -> Result<Stats, RenderError<S::Error>> {
-    let area = area(settings)?;
     let pool = Pool::new(settings.threads).map_err(RenderError::Threads)?;
-    let surfaces = pool.install(|| surfaces(scene, settings))?;
-    let texture_bytes = surfaces.iter().flatten().map(|s| s.texture.memory()).sum();
-    let plan = plan::build(scene, settings, surfaces);
+    area::<S::Error>(settings)?;
+    let textures = pool.install(|| Textures::build(scene, settings))?;
+    draw(scene, &textures, settings, sink, control, &pool)
+}
+
+/// [`render`] with textures that were made before: for many pictures of one scene, or of scenes
+/// that share their images.
+///
+/// # Errors
+/// As [`render`]; and [`RenderError::Textures`] if they are not the ones that this scene needs with
+/// these settings.
+pub fn render_with<S: Sink>(
+    scene: &Scene,
+    textures: &Textures,
+    settings: &Settings,
+    sink: &mut S,
+    control: &Control<'_>,
+) -> Result<Stats, RenderError<S::Error>> {
+    if !textures.serve(scene, settings) {
+        return Err(RenderError::Textures);
+    }
+    let pool = Pool::new(settings.threads).map_err(RenderError::Threads)?;
+    draw(scene, textures, settings, sink, control, &pool)
+}
+
+fn draw<S: Sink>(
+    scene: &Scene,
+    textures: &Textures,
+    settings: &Settings,
+    sink: &mut S,
+    control: &Control<'_>,
+    pool: &Pool,
+) -> Result<Stats, RenderError<S::Error>> {
+    let area = area(settings)?;
+    let texture_bytes = textures.memory();
+    let plan = plan::build(scene, settings, &textures.surfaces);
     let grid = TileGrid::new(area, settings.tile_size);
     check_memory(&plan, settings, &grid, pool.threads(), texture_bytes)?;
     let stats = Stats {
@@ -58,7 +89,7 @@ pub fn render<S: Sink>(
     let job = Job { plan: &plan, settings, background: background(scene, settings) };
     let bins = TileBins::new(grid, &plan.bounds);
     sink.start(stats.width, stats.height).map_err(RenderError::Sink)?;
-    schedule::run(&job, grid, bins, &pool, sink, control)?;
+    schedule::run(&job, grid, bins, pool, sink, control)?;
     sink.finish().map_err(RenderError::Sink)?;
     Ok(stats)
 }
@@ -102,60 +133,14 @@ fn background(scene: &Scene, settings: &Settings) -> Premul {
     color.map_or(Premul::TRANSPARENT, |color| settings.space.import(color))
 }
 
-/// Builds the textures that commands use; the others stay `None`.
-fn surfaces<E>(scene: &Scene, settings: &Settings) -> Result<Vec<Option<Surface>>, RenderError<E>> {
-    let mut used = vec![false; scene.images.len()];
-    for command in &scene.commands {
-        if let Command::Textured(scumble_scene::TexturedTriangle { image: ImageId(i), .. })
-        | Command::Image(scumble_scene::ImageQuad { image: ImageId(i), .. }) = command
-            && let Some(flag) = used.get_mut(*i)
-        {
-            *flag = true;
-        }
-    }
-    let wanted = || scene.images.iter().zip(&used).map(|(image, used)| used.then_some(image));
-    let needed = wanted().flatten().try_fold(0u64, |sum, image| {
-        let options = texture_options(image, settings);
-        let (width, height) = (image.pixels.width(), image.pixels.height());
-        sum.checked_add(Texture::memory_for(width, height, &options)? as u64)
-    });
-    check_limit(needed.unwrap_or(u64::MAX), settings)?;
-    wanted()
-        .enumerate()
-        .map(|(index, image)| {
-            let Some(image) = image else { return Ok(None) };
-            let texture = Texture::new(image.pixels.view(), &texture_options(image, settings))
-                .map_err(|source| RenderError::Texture { index, source })?;
-            let opaque = image.pixels.pixels().iter().all(|texel| texel[3] == 255);
-            Ok(Some(Surface { texture, opaque }))
-        })
-        .collect()
-}
-
-fn texture_options(image: &SceneImage, settings: &Settings) -> TextureOptions {
-    TextureOptions {
-        space: settings.space,
-        wrap: match image.wrap {
-            ImageWrap::Clamp => Wrap::Clamp,
-            ImageWrap::Repeat => Wrap::Repeat,
-            ImageWrap::Mirror => Wrap::Mirror,
-        },
-        levels: match settings.sampler.level {
-            LevelMode::Zero => Levels::BaseOnly,
-            _ => Levels::All,
-        },
-        ..TextureOptions::default()
-    }
-}
-
-fn check_limit<E>(needed: u64, settings: &Settings) -> Result<(), RenderError<E>> {
+pub(crate) fn check_limit<E>(needed: u64, settings: &Settings) -> Result<(), RenderError<E>> {
     let limit = settings.max_memory;
     if needed > limit { Err(RenderError::Memory { needed, limit }) } else { Ok(()) }
 }
 
 /// The memory of the whole run, as far as it can be known before the first tile.
 fn check_memory<E>(
-    plan: &Plan,
+    plan: &Plan<'_>,
     settings: &Settings,
     grid: &TileGrid,
     threads: usize,

@@ -34,7 +34,7 @@ const BACKGROUND: u32 = 0;
 
 /// All that stays the same from tile to tile.
 pub(crate) struct Job<'a> {
-    pub(crate) plan: &'a Plan,
+    pub(crate) plan: &'a Plan<'a>,
     pub(crate) settings: &'a Settings,
     pub(crate) background: Premul,
 }
@@ -93,7 +93,7 @@ impl Job<'_> {
                     match key.checked_sub(1) {
                         None => out.fill(self.background),
                         Some(i) => {
-                            locals[i as usize].draw.paint.row(&self.plan.surfaces, place, out);
+                            locals[i as usize].draw.paint.row(self.plan.surfaces, place, out);
                         }
                     }
                 }),

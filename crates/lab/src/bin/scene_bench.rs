@@ -1,9 +1,9 @@
 //! One more program for a comparison of rasterizers: reads a scene that the others read too, renders
 //! it frame after frame, and prints `ms MEDIAN MIN N`.
 //!
-//! A frame is a call of `scumble::render` into an image that is kept from frame to frame. The driver
-//! builds the textures in that call, which the others do once, before the clock: so `ms` leaves that
-//! part out, and a second line, `ms_textures`, says what was left out.
+//! A frame is a call of `scumble::render_with` into an image that is kept from frame to frame. As
+//! with the others, textures are built once, before the clock: a second line, `ms_textures`, says
+//! how long that took.
 
 use clap::{Parser, ValueEnum};
 use lab::driver;
@@ -107,7 +107,7 @@ fn run(args: &Args) -> Result<(), Box<dyn Error>> {
         let times = driver::measure(&scene, &settings, args.bench, &mut sink)?;
         println!("ms {}", times.drawing);
         if !scene.images.is_empty() {
-            println!("ms_textures {}", times.textures);
+            println!("ms_textures {:.4}", times.textures);
         }
     }
     if let Some(path) = &args.out {
