@@ -1,7 +1,7 @@
 use crate::samples::{mean, mean_of};
 use crate::{Palette, encode_row};
 use alloc::vec::Vec;
-use scumble_pixel::{Premul, WorkingSpace};
+use scumble_pixel::Premul;
 
 /// Which surface is seen in each sample of a tile: a number, the *key*, in place of a colour.
 ///
@@ -124,7 +124,7 @@ impl Visibility {
         }
         let key = key.min(Self::MAX_KEY);
         for row in y..bottom {
-            self.keys[row * self.width..][x..right].fill(key);
+            fill(&mut self.keys[row * self.width..][x..right], key);
         }
     }
 
@@ -135,7 +135,7 @@ impl Visibility {
         let right = x.saturating_add(len as usize).min(self.width);
         if x < right && y < self.height {
             let start = y * self.width;
-            self.keys[start + x..start + right].fill(key.min(Self::MAX_KEY));
+            fill(&mut self.keys[start + x..start + right], key.min(Self::MAX_KEY));
         }
     }
 
@@ -184,28 +184,35 @@ impl Visibility {
     /// The bytes are those of [`shade_row`](Self::shade_row) and [`encode_row`].
     pub fn encode_row(&self, y: u32, palette: &Palette, out: &mut [[u8; 4]]) {
         let (start, keys) = self.keys(y);
-        let mut any_mixed = false;
-        for (&key, code) in keys.iter().zip(&mut *out) {
-            *code = palette.code(key);
-            any_mixed |= key == MIXED;
+        for (key, code) in keys.iter().zip(&mut *out) {
+            *code = palette.code(*key);
         }
-        if !any_mixed {
+        if self.groups == 0 {
             return;
         }
-        // The colours of mixed pixels, and where they are: encoded together.
-        let mut mixed = [Premul::TRANSPARENT; BATCH];
-        let mut places = [0; BATCH];
-        let mut count = 0;
-        for (x, _) in keys.iter().enumerate().take(out.len()).filter(|(_, key)| **key == MIXED) {
-            mixed[count] = self.mix(start + x, palette);
-            places[count] = x;
-            count += 1;
-            if count == BATCH {
-                scatter(&mixed, &places, palette.space(), out);
-                count = 0;
+        for (first, (keys, out)) in (0..).step_by(64).zip(keys.chunks(64).zip(out.chunks_mut(64))) {
+            // As bits, since whether a pixel is mixed is nothing that a branch could guess.
+            let bits = (0..).zip(keys).map(|(i, &key)| u64::from(key == MIXED) << i);
+            let mut mixed = bits.fold(0, |all, bit| all | bit);
+            mixed &= u64::MAX >> (64 - out.len());
+            let mut colors = [Premul::TRANSPARENT; BATCH];
+            while mixed != 0 {
+                let (mut rest, mut count) = (mixed, 0);
+                for color in &mut colors {
+                    if rest != 0 {
+                        *color = self.mix(start + first + rest.trailing_zeros() as usize, palette);
+                        rest &= rest - 1;
+                        count += 1;
+                    }
+                }
+                let mut codes = [[0; 4]; BATCH];
+                encode_row(&colors[..count], palette.space(), &mut codes);
+                for code in &codes[..count] {
+                    out[mixed.trailing_zeros() as usize] = *code;
+                    mixed &= mixed - 1;
+                }
             }
         }
-        scatter(&mixed[..count], &places, palette.space(), out);
     }
 
     fn mix(&self, i: usize, palette: &Palette) -> Premul {
@@ -269,12 +276,24 @@ impl Visibility {
     }
 }
 
-/// Encodes colours to where they belong.
-fn scatter(colors: &[Premul], places: &[usize], space: WorkingSpace, out: &mut [[u8; 4]]) {
-    let mut codes = [[0; 4]; BATCH];
-    encode_row(colors, space, &mut codes);
-    for (&x, code) in places.iter().zip(&codes[..colors.len()]) {
-        out[x] = *code;
+/// Writes a key all over a run. Runs are short: two writes that overlap beat a loop over what is
+/// left after whole vectors.
+#[inline(always)]
+fn fill(run: &mut [u32], key: u32) {
+    if let Some(last) = run.last_chunk_mut() {
+        *last = [key; 8];
+        for chunk in run.as_chunks_mut().0 {
+            *chunk = [key; 8];
+        }
+    } else if let Some(last) = run.last_chunk_mut() {
+        *last = [key; 4];
+        if let Some(first) = run.first_chunk_mut() {
+            *first = [key; 4];
+        }
+    } else {
+        for seen in run {
+            *seen = key;
+        }
     }
 }
 

@@ -7,7 +7,7 @@
 use crate::edge::Edge;
 use crate::{SampleMask, SamplePattern, Sink};
 use core::ops::Range;
-use fearless_simd::{Simd, f64x8, i32x4, prelude::*};
+use fearless_simd::{Simd, f64x8, prelude::*};
 use scumble_geometry::IntRect;
 
 /// Up to so many samples, stretches of each are quicker than tests of blocks.
@@ -120,14 +120,15 @@ fn walk<S: Simd, const N: usize>(
         let count = (region.y1 - y).min(8) as usize;
         let ends = ends_of_rows(simd, &crossings, rows, f64x8::splat(simd, width));
         if N == 1 {
-            let (from, to) = (whole(simd, ends[0][0]), whole(simd, ends[0][1]));
+            let (from, to) = (Lanes::new(simd, ends[0][0]), Lanes::new(simd, ends[0][1]));
             for (i, y) in (0..count).zip(y..) {
-                if from[i] < to[i] {
-                    out.run(y, region.x0 + from[i], region.x0 + to[i]);
+                let (from, to) = (from.get(i), to.get(i));
+                if from < to {
+                    out.run(y, region.x0 + from, region.x0 + to);
                 }
             }
         } else {
-            Stretches::new(simd, ends, width).emit(region.x0, y, count, &mut out);
+            Stretches::<N>::new(simd, ends, width).emit(region.x0, y, count, &mut out);
         }
         y += 8;
     }
@@ -159,47 +160,43 @@ fn ends_of_rows<S: Simd, const N: usize>(
 }
 
 /// The stretches of several samples in eight rows.
-struct Stretches<S: Simd> {
-    simd: S,
-    /// Per row and sample. Those beyond the pattern's are empty.
-    starts: [[i32; FEW]; 8],
-    ends: [[i32; FEW]; 8],
-    /// Per row: those of all samples together, and of any.
-    all: [[i32; 8]; 2],
-    any: [[i32; 8]; 2],
+struct Stretches<const N: usize> {
+    starts: [Lanes; N],
+    lengths: [Lanes; N],
+    /// First and past the last: what all samples own, and what any does.
+    all: [Lanes; 2],
+    any: [Lanes; 2],
 }
 
-impl<S: Simd> Stretches<S> {
+impl<const N: usize> Stretches<N> {
     #[inline(always)]
-    fn new<const N: usize>(simd: S, of_samples: [[f64x8<S>; 2]; N], width: f64) -> Self {
+    fn new<S: Simd>(simd: S, of_samples: [[f64x8<S>; 2]; N], width: f64) -> Self {
         let (zero, width) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, width));
         let (mut all, mut any) = ([zero, width], [width, zero]);
-        let (mut starts, mut ends) = ([[0; FEW]; 8], [[0; FEW]; 8]);
+        let (mut starts, mut lengths) = ([const { Lanes::ZERO }; N], [const { Lanes::ZERO }; N]);
         for (s, [from, to]) in of_samples.into_iter().enumerate() {
             // A sample that owns nothing in a row must not widen what the others own.
             let none = from.simd_ge(to);
             let (from, to) = (none.select(width, from), none.select(zero, to));
             all = [all[0].max(from), all[1].min(to)];
             any = [any[0].min(from), any[1].max(to)];
-            let (from, to) = (whole(simd, from), whole(simd, to));
-            for i in 0..8 {
-                (starts[i][s], ends[i][s]) = (from[i], to[i]);
-            }
+            starts[s] = Lanes::new(simd, from);
+            lengths[s] = Lanes::new(simd, (to - from).max(zero));
         }
-        let all = [whole(simd, all[0]), whole(simd, all[1])];
-        let any = [whole(simd, any[0]), whole(simd, any[1])];
-        Self { simd, starts, ends, all, any }
+        let all = [Lanes::new(simd, all[0]), Lanes::new(simd, all[1])];
+        let any = [Lanes::new(simd, any[0]), Lanes::new(simd, any[1])];
+        Self { starts, lengths, all, any }
     }
 
     #[inline(always)]
     fn emit(&self, left: i32, top: i32, count: usize, out: &mut Runs<'_, impl Sink>) {
         for (i, y) in (0..count).zip(top..) {
-            let (from, to) = (self.all[0][i], self.all[1][i]);
+            let (from, to) = (self.all[0].get(i), self.all[1].get(i));
             let full = from < to;
             if full {
                 out.run(y, left + from, left + to);
             }
-            let (first, last) = (self.any[0][i], self.any[1][i]);
+            let (first, last) = (self.any[0].get(i), self.any[1].get(i));
             let (from, to) = if full { (from, to) } else { (last, last) };
             self.partial(i, first..from, [left, y], out);
             self.partial(i, to..last, [left, y], out);
@@ -216,10 +213,12 @@ impl<S: Simd> Stretches<S> {
         out: &mut Runs<'_, impl Sink>,
     ) {
         for x in columns {
-            let column = i32x4::splat(self.simd, x);
-            let begun = i32x4::load_array(self.simd, self.starts[i]).simd_le(column);
-            let going = i32x4::load_array(self.simd, self.ends[i]).simd_gt(column);
-            let mask = (begun & going).to_bitmask();
+            let mut mask = 0;
+            for s in 0..N {
+                // Left of the start, the difference wraps around to something huge.
+                let along = x.wrapping_sub(self.starts[s].get(i)) as u32;
+                mask |= u64::from(along < self.lengths[s].get(i) as u32) << s;
+            }
             if mask != 0 {
                 out.sink.pixel(left + x, y, SampleMask(mask));
             }
@@ -227,17 +226,22 @@ impl<S: Simd> Stretches<S> {
     }
 }
 
-/// Whole numbers of a size that fits, as integers.
-#[inline(always)]
-fn whole<S: Simd>(simd: S, v: f64x8<S>) -> [i32; 8] {
-    // 1.5 × 2⁵² leaves no bit after the point, and the number in the low bits.
-    let shifted = v + f64x8::splat(simd, 6_755_399_441_055_744.0);
-    // A loop, not a map: arrays are mapped through memory.
-    let mut out = [0; 8];
-    for (out, bits) in out.iter_mut().zip(shifted.as_slice()) {
-        *out = bits.to_bits() as i32;
+/// Eight whole numbers of a size that fits 32 bits, as they come out of a register.
+struct Lanes([f64; 8]);
+
+impl Lanes {
+    const ZERO: Self = Self([0.0; 8]);
+
+    #[inline(always)]
+    fn new<S: Simd>(simd: S, v: f64x8<S>) -> Self {
+        // 1.5 × 2⁵² leaves no bit after the point, and the number in the low bits.
+        Self((v + f64x8::splat(simd, 6_755_399_441_055_744.0)).to_array())
     }
-    out
+
+    #[inline(always)]
+    fn get(&self, i: usize) -> i32 {
+        self.0[i].to_bits() as i32
+    }
 }
 
 /// Joins equal runs of rows that follow each other.

@@ -1,5 +1,6 @@
 use super::*;
 use proptest::prelude::*;
+use scumble_pixel::WorkingSpace;
 use std::{vec, vec::Vec};
 
 /// The definition: every sample of every pixel stored, always.
@@ -123,6 +124,25 @@ proptest! {
             prop_assert_eq!(tile.row(height).count(), 0);
             prop_assert_eq!(tile.row(u32::MAX).count(), 0);
         }
+    }
+}
+
+/// Rows longer than what is looked at together, and rooms that are shorter or longer than the row.
+#[test]
+fn long_rows_are_encoded_whole() {
+    let mut palette = Palette::new(WorkingSpace::Srgb);
+    COLORS.iter().for_each(|&c| palette.push(Premul(c)));
+    let mut tile = Visibility::new();
+    tile.reset(150, 1, 4, 0);
+    (0..150).filter(|x| x % 3 != 1).for_each(|x| tile.cover(x, 0, 0b0110, x % 4));
+    for room in [0, 1, 63, 64, 65, 149, 150, 200] {
+        let mut shaded = vec![Premul::TRANSPARENT; room];
+        tile.shade_row(0, &mut shaded, |key, _, out| out.fill(Premul(COLORS[key as usize])));
+        let mut expected = vec![[9; 4]; room];
+        encode_row(&shaded[..room.min(150)], WorkingSpace::Srgb, &mut expected);
+        let mut codes = vec![[9; 4]; room];
+        tile.encode_row(0, &palette, &mut codes);
+        assert_eq!(codes, expected);
     }
 }
 
