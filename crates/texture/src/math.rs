@@ -41,6 +41,12 @@ pub(crate) fn floor32(x: f32) -> f32 {
     return libm::floorf(x);
 }
 
+/// The least whole number that is not below x.
+#[inline(always)]
+pub(crate) fn ceil(x: f64) -> f64 {
+    -floor(-x)
+}
+
 /// log₂ x of a normal positive x; the absolute error is below 1e−12.
 ///
 /// The exponent is read from the bits; the mantissa m, brought to [√½, √2), goes through

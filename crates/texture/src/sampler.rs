@@ -1,3 +1,5 @@
+use crate::{Kernel, Magnify, Separable};
+
 /// How texels of one level make a colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum PixelFilter {
@@ -5,7 +7,9 @@ pub enum PixelFilter {
     Nearest,
     /// The four nearest texels, weighted by nearness. With [`LevelMode::Linear`] it is trilinear.
     Bilinear,
-    /// The elliptical weighted average: a Gaussian pixel projected into the texture.
+    /// Interpolation by a sharper kernel: a filter of a place, like bilinear.
+    Separable(Separable),
+    /// The elliptical weighted average: [`Sampler::kernel`] projected into the texture.
     #[default]
     Ewa,
 }
@@ -39,6 +43,11 @@ pub struct Sampler {
     pub pixel: PixelFilter,
     /// Which levels are read.
     pub level: LevelMode,
+    /// The pixel's filter. Elliptical filter only.
+    pub kernel: Kernel,
+    /// What is made of the texture where a pixel sees less than about a texel. Elliptical filter
+    /// and probes only.
+    pub magnify: Magnify,
     /// The largest ratio of the ellipse's axes; beyond it the *minor* axis is widened, which blurs
     /// but never aliases. In 1…1024; what lies outside is clamped. Elliptical filter only.
     ///
@@ -60,6 +69,8 @@ impl Sampler {
     pub const FAST: Self = Self {
         pixel: PixelFilter::Ewa,
         level: LevelMode::Auto,
+        kernel: Kernel::Gaussian,
+        magnify: Magnify::None,
         max_eccentricity: 16.0,
         radius: 2.5,
         least_sigma: 0.5,

@@ -7,7 +7,7 @@ use crate::point::{self, bilinear, nearest};
 use crate::wrap::Nearer;
 use crate::{
     Footprint, LevelMode, Levels, PixelFilter, Sampler, Simd, TextureError, TextureOptions, Wrap,
-    lod,
+    extra, lod,
 };
 use alloc::vec::Vec;
 use fearless_simd::dispatch;
@@ -27,7 +27,7 @@ pub struct Texture {
     space: WorkingSpace,
     average: [f32; 4],
     pub(crate) nearer: [Nearer; 2],
-    simd: Simd,
+    pub(crate) simd: Simd,
 }
 
 impl Texture {
@@ -155,8 +155,22 @@ impl Texture {
         );
     }
 
-    /// Runs [`Texture::fill`] compiled for the chosen instructions.
+    /// Samples a run of footprints: by the fast paths, or by what is beside them.
+    #[inline(always)]
     fn dispatch(&self, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mut [Premul]) {
+        if extra::takes(s) {
+            return extra::fill(self, at, s, out);
+        }
+        self.fill_fast(at, s, out);
+    }
+
+    /// Runs [`Texture::fill`] compiled for the chosen instructions.
+    pub(crate) fn fill_fast(
+        &self,
+        at: impl Fn(usize) -> Footprint,
+        s: &Sampler,
+        out: &mut [Premul],
+    ) {
         match self.simd.0 {
             None => self.fill(Scalar, at, s, out),
             Some(level) => {
@@ -177,7 +191,7 @@ impl Texture {
         match s.pixel {
             PixelFilter::Nearest => return point::fill(self, at, point_mode(s), nearest, out),
             PixelFilter::Bilinear => return point::fill(self, at, point_mode(s), bilinear, out),
-            PixelFilter::Ewa => (),
+            _ => (),
         }
         let limits = Limits::new(s);
         if s.level == LevelMode::Auto && out.len() >= batch::WORTH {
@@ -203,13 +217,19 @@ impl Texture {
         let each = match s.pixel {
             PixelFilter::Nearest => 1,
             PixelFilter::Bilinear => 4,
-            PixelFilter::Ewa if !f.is_bounded() => return 0,
-            PixelFilter::Ewa => return ewa::cost(self, &f, s.level, &Limits::new(s)),
+            PixelFilter::Separable(kernel) => kernel.texels(),
+            _ if extra::takes(s) => return extra::cost(self, &f, s),
+            _ => return self.cost_fast(&f, s),
         };
         let step = f.longest_step_squared();
         let pick = lod::pick(step, lod::detail(step), point_mode(s), self.levels.len() - 1);
         let two = pick.coarser > 0.0;
         if two { 2 * each } else { each }
+    }
+
+    /// The same for the fast elliptical filter, the centre brought near.
+    pub(crate) fn cost_fast(&self, f: &Footprint, s: &Sampler) -> usize {
+        if f.is_bounded() { ewa::cost(self, f, s.level, &Limits::new(s)) } else { 0 }
     }
 
     /// The footprint with its centre brought near.
@@ -228,7 +248,7 @@ impl Texture {
 }
 
 /// The level mode of nearest and bilinear, which have a best of their own.
-fn point_mode(s: &Sampler) -> LevelMode {
+pub(crate) fn point_mode(s: &Sampler) -> LevelMode {
     match (s.level, s.pixel) {
         (LevelMode::Auto, PixelFilter::Nearest) => LevelMode::Nearest,
         (LevelMode::Auto, _) => LevelMode::Linear,

@@ -8,8 +8,8 @@ use proptest::prelude::*;
 use scumble_geometry::{DVec2, Homography, Matrix2};
 use scumble_pixel::{Premul, WorkingSpace};
 use scumble_texture::{
-    Decimation, Footprint, LevelMode, Levels, PixelFilter, Sampler, Simd, Texture, TextureOptions,
-    Wrap,
+    Decimation, Footprint, Kernel, LevelMode, Levels, Magnify, PixelFilter, Sampler, Separable,
+    Simd, Texture, TextureOptions, Wrap,
 };
 
 fn wraps() -> impl Strategy<Value = Wrap> {
@@ -31,7 +31,12 @@ fn options() -> impl Strategy<Value = TextureOptions> {
 }
 
 fn samplers() -> impl Strategy<Value = Sampler> {
-    let pixel = prop_oneof![1 => Just(PixelFilter::Nearest), 1 => Just(PixelFilter::Bilinear), 3 => Just(PixelFilter::Ewa)];
+    let pixel = prop_oneof![
+        1 => Just(PixelFilter::Nearest),
+        1 => Just(PixelFilter::Bilinear),
+        1 => prop::sample::select(&Separable::ALL).prop_map(PixelFilter::Separable),
+        4 => Just(PixelFilter::Ewa)
+    ];
     let level = prop_oneof![
         1 => Just(LevelMode::Zero),
         1 => Just(LevelMode::Nearest),
@@ -39,7 +44,15 @@ fn samplers() -> impl Strategy<Value = Sampler> {
         3 => Just(LevelMode::Auto)
     ];
     let preset = prop_oneof![Just(Sampler::FAST), Just(Sampler::DEFAULT), Just(Sampler::HIGH)];
-    (pixel, level, preset).prop_map(|(pixel, level, preset)| preset.with(pixel, level))
+    let kernel = prop_oneof![2 => Just(Kernel::Gaussian), 1 => prop::sample::select(&Kernel::ALL)];
+    let magnify = prop_oneof![
+        2 => Just(Magnify::None),
+        2 => prop::sample::select(&Magnify::ALL),
+        1 => prop::sample::select(&Kernel::ALL).prop_map(Magnify::Radial),
+    ];
+    (pixel, level, preset, kernel, magnify).prop_map(|(pixel, level, preset, kernel, magnify)| {
+        Sampler { kernel, magnify, ..preset.with(pixel, level) }
+    })
 }
 
 /// Numbers of every size, and those that are none.
