@@ -11,7 +11,8 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use scumble_geometry::{DVec2, Homography};
 use scumble_pixel::{Image, Premul, WorkingSpace};
 use scumble_texture::{
-    Decimation, Footprint, LevelMode, PixelFilter, Sampler, Simd, Texture, TextureOptions,
+    Decimation, Footprint, Kernel, LevelMode, Magnify, PixelFilter, Sampler, Simd, Texture,
+    TextureOptions,
 };
 use std::hint::black_box;
 
@@ -85,6 +86,10 @@ fn ground(c: &mut Criterion) {
         ("fast", Sampler::FAST),
         ("default", Sampler::DEFAULT),
         ("high", Sampler::HIGH),
+        ("default, taps", Sampler { magnify: Magnify::Taps, ..s }),
+        ("default, Catmull-Rom", Sampler { magnify: Magnify::CatmullRom, ..s }),
+        ("triangle", Sampler { kernel: Kernel::Triangle, ..s }),
+        ("Lanczos 2", Sampler { kernel: Kernel::Lanczos2, ..s }),
     ] {
         group.bench_function(name, |b| {
             b.iter(|| {

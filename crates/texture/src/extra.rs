@@ -2,7 +2,6 @@
 //!
 //! Sixteen footprints at a time; what the fast path can do of them it does.
 
-use crate::magnify::nearness;
 use crate::point;
 use crate::radial::Radial;
 use crate::texture::{into_range, point_mode};
@@ -72,7 +71,7 @@ impl Area {
         let mut near = [0.0f32; BATCH];
         if s.magnify.is_apart() {
             for (near, f) in near.iter_mut().zip(footprints) {
-                *near = nearness(f.jacobian.axes().major);
+                *near = s.magnify.nearness(f.jacobian.axes().major);
             }
         }
         let near = &near[..out.len()];
@@ -113,11 +112,11 @@ fn each(
     }
 }
 
-/// The magnified texture at a footprint's centre.
+/// The magnified texture under a footprint.
 #[inline(always)]
 fn magnified(t: &Texture, f: &Footprint, magnify: Magnify) -> [f32; 4] {
     let f = t.nearer(f);
-    if f.is_finite() { magnify.sample(&t.levels[0], t.wrap, f.u, f.v) } else { t.average().0 }
+    if f.is_finite() { magnify.sample(&t.levels[0], t.wrap, &f) } else { t.average().0 }
 }
 
 /// a + (b − a)·t, no brighter than its alpha.
@@ -128,7 +127,7 @@ fn mix(a: Premul, b: Premul, t: f32) -> Premul {
 
 /// Texels that a sample reads, those of weight 0 included; the centre has been brought near.
 pub(crate) fn cost(t: &Texture, f: &Footprint, s: &Sampler) -> usize {
-    let near = if s.magnify.is_apart() { nearness(f.jacobian.axes().major) } else { 0.0 };
+    let near = s.magnify.nearness(f.jacobian.axes().major);
     let magnified = if near > 0.0 { s.magnify.texels() } else { 0 };
     if near >= 1.0 {
         return magnified;

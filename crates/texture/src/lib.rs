@@ -93,6 +93,7 @@ pub mod reference;
 mod sampler;
 mod separable;
 mod simd;
+mod taps;
 mod texture;
 mod walk;
 mod walk_simd;

@@ -1,9 +1,9 @@
 use crate::level::Level;
-use crate::{Kernel, Separable, Wrap, point};
+use crate::{Footprint, Kernel, Separable, Wrap, point, taps};
 
 /// What is made of a texture where a pixel sees less than about a texel of it.
 ///
-/// Elliptical filters and probes ask this. The change from one way to the other goes by the *major*
+/// Elliptical filters and probes ask this. But for [`Magnify::Taps`], the change from one way to the other goes by the *major*
 /// axis of the footprint, s₁ in texels per pixel: wholly magnified where s₁ ≤ 0.75, wholly minified
 /// from 1.5 on, and a smoothstep of the two results between. Going by the minor axis would take a
 /// long thin footprint for a magnified one, and alias along it.
@@ -13,6 +13,10 @@ pub enum Magnify {
     /// and free of halos.
     #[default]
     None,
+    /// The Gaussian pixel over bilinear reconstruction, integrated by sixteen taps: 10 to 30 dB
+    /// nearer to that integral than [`Magnify::None`] below a texel per pixel. Joined to the ellipse
+    /// between s₁ = 1 and 1.5.
+    Taps,
     /// Straight lines between texels: their grid shows.
     Bilinear,
     /// [`Separable::CatmullRom`]: sharp.
@@ -50,8 +54,8 @@ pub(crate) fn fall(x: f64, from: f64, to: f64) -> f32 {
 
 impl Magnify {
     /// The ways with a name, [`Magnify::Radial`] apart.
-    pub const ALL: [Self; 5] =
-        [Self::None, Self::Bilinear, Self::CatmullRom, Self::Mitchell, Self::Lanczos2];
+    pub const ALL: [Self; 6] =
+        [Self::None, Self::Taps, Self::Bilinear, Self::CatmullRom, Self::Mitchell, Self::Lanczos2];
 
     /// Whether it is a result of its own, to be blended with the other.
     pub(crate) const fn is_apart(self) -> bool {
@@ -62,22 +66,34 @@ impl Magnify {
     pub(crate) const fn texels(self) -> usize {
         match self {
             Self::None | Self::Radial(_) => 0,
+            Self::Taps => taps::TEXELS,
             Self::Bilinear => 4,
             Self::CatmullRom | Self::Mitchell | Self::Lanczos2 => 16,
         }
     }
 
-    /// The magnified texture at (u, v), in texels of `level`.
+    /// How much of the result is this, from the footprint's major axis.
     #[inline(always)]
-    pub(crate) fn sample(self, level: &Level, wrap: Wrap, u: f64, v: f64) -> [f32; 4] {
+    pub(crate) fn nearness(self, major: f64) -> f32 {
+        match self {
+            Self::None | Self::Radial(_) => 0.0,
+            Self::Taps => taps::nearness(major),
+            _ => nearness(major),
+        }
+    }
+
+    /// The magnified texture under a footprint in texels of `level`, its centre finite.
+    #[inline(always)]
+    pub(crate) fn sample(self, level: &Level, wrap: Wrap, f: &Footprint) -> [f32; 4] {
         let kernel = match self {
+            Self::Taps => return taps::sample(level, wrap, f),
             Self::None | Self::Radial(_) | Self::Bilinear => {
-                return point::bilinear(level, wrap, u, v);
+                return point::bilinear(level, wrap, f.u, f.v);
             }
             Self::CatmullRom => Separable::CatmullRom,
             Self::Mitchell => Separable::Mitchell,
             Self::Lanczos2 => Separable::Lanczos2,
         };
-        kernel.sample(level, wrap, u, v)
+        kernel.sample(level, wrap, f.u, f.v)
     }
 }
