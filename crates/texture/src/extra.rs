@@ -1,6 +1,6 @@
 //! The samplers beside the fast ones: other kernels, magnification, probes, the classic method.
 //!
-//! Sixteen footprints at a time; what the fast path can do of them it does.
+//! Some footprints at a time; what the fast path can do of them it does.
 
 use crate::point;
 use crate::radial::Radial;
@@ -9,8 +9,8 @@ use crate::{Footprint, Kernel, Magnify, PixelFilter, Sampler, Texture};
 use fearless_simd::dispatch;
 use scumble_pixel::Premul;
 
-/// Pixels at a time.
-const BATCH: usize = 16;
+/// Pixels at a time: the fast path has a start-up cost.
+const BATCH: usize = 64;
 
 /// The footprints of a batch: all of them, because the fast path sets up as many whatever it writes.
 type Footprints = [Footprint; BATCH];
@@ -71,7 +71,7 @@ impl Area {
         let mut near = [0.0f32; BATCH];
         if s.magnify.is_apart() {
             for (near, f) in near.iter_mut().zip(footprints) {
-                *near = s.magnify.nearness(f.jacobian.axes().major);
+                *near = s.magnify.nearness(f.major_squared());
             }
         }
         let near = &near[..out.len()];
@@ -127,7 +127,7 @@ fn mix(a: Premul, b: Premul, t: f32) -> Premul {
 
 /// Texels that a sample reads, those of weight 0 included; the centre has been brought near.
 pub(crate) fn cost(t: &Texture, f: &Footprint, s: &Sampler) -> usize {
-    let near = s.magnify.nearness(f.jacobian.axes().major);
+    let near = s.magnify.nearness(f.major_squared());
     let magnified = if near > 0.0 { s.magnify.texels() } else { 0 };
     if near >= 1.0 {
         return magnified;

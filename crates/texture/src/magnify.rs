@@ -1,4 +1,5 @@
 use crate::level::Level;
+use crate::math::sqrt;
 use crate::{Footprint, Kernel, Separable, Wrap, point, taps};
 
 /// What is made of a texture where a pixel sees less than about a texel of it.
@@ -15,7 +16,7 @@ pub enum Magnify {
     None,
     /// The Gaussian pixel over bilinear reconstruction, integrated by sixteen taps: 10 to 30 dB
     /// nearer to that integral than [`Magnify::None`] below a texel per pixel. Joined to the ellipse
-    /// between s₁ = 1 and 1.5.
+    /// between s₁ = 0.9 and 1.4.
     Taps,
     /// Straight lines between texels: their grid shows.
     Bilinear,
@@ -38,17 +39,18 @@ const MAGNIFIED: f64 = 0.75;
 /// And from which on it is minified.
 const MINIFIED: f64 = 1.5;
 
-/// How magnified a footprint is, from its major axis: 1 up to [`MAGNIFIED`], 0 from [`MINIFIED`] on.
+/// How magnified a footprint is, from the square of its major axis: 1 up to [`MAGNIFIED`], 0 from
+/// [`MINIFIED`] on.
 #[inline(always)]
-pub(crate) fn nearness(major: f64) -> f32 {
-    fall(major, MAGNIFIED, MINIFIED)
+pub(crate) fn nearness(major_squared: f64) -> f32 {
+    fall(major_squared, MAGNIFIED, MINIFIED)
 }
 
-/// A smoothstep from 1 at `from` down to 0 at `to`; 0 for what is not finite.
+/// A smoothstep of √x from 1 at `from` down to 0 at `to`; 0 for what is not a number.
 #[inline(always)]
 pub(crate) fn fall(x: f64, from: f64, to: f64) -> f32 {
-    let t = ((to - x) * (1.0 / (to - from))).min(1.0);
-    let t = if t > 0.0 { t } else { 0.0 };
+    let t = (to - sqrt(x)) * (1.0 / (to - from));
+    let t = if t > 0.0 { t.min(1.0) } else { 0.0 };
     (t * t * (3.0 - 2.0 * t)) as f32
 }
 
@@ -72,13 +74,13 @@ impl Magnify {
         }
     }
 
-    /// How much of the result is this, from the footprint's major axis.
+    /// How much of the result is this, from the square of the footprint's major axis.
     #[inline(always)]
-    pub(crate) fn nearness(self, major: f64) -> f32 {
+    pub(crate) fn nearness(self, major_squared: f64) -> f32 {
         match self {
             Self::None | Self::Radial(_) => 0.0,
-            Self::Taps => taps::nearness(major),
-            _ => nearness(major),
+            Self::Taps => taps::nearness(major_squared),
+            _ => nearness(major_squared),
         }
     }
 

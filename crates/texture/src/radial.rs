@@ -68,8 +68,7 @@ impl Radial {
     /// The colour of one footprint, its centre brought near and its Jacobian bounded.
     #[inline(always)]
     pub(crate) fn sample(&self, t: &Texture, f: &Footprint) -> [f32; 4] {
-        let nearness =
-            if self.magnified.is_some() { nearness(f.jacobian.axes().major) } else { 0.0 };
+        let nearness = if self.magnified.is_some() { nearness(f.major_squared()) } else { 0.0 };
         self.over_levels(t, f, |level, rows| self.average(level, t, rows, nearness), lerp)
     }
 

@@ -80,14 +80,15 @@ impl Sampler {
     pub const DEFAULT: Self =
         Self { max_eccentricity: 32.0, radius: 3.08, least_sigma: 0.6, blend: true, ..Self::FAST };
     /// For print and masters.
-    pub const HIGH: Self = Self { max_eccentricity: 64.0, least_sigma: 0.8, ..Self::DEFAULT };
+    pub const HIGH: Self =
+        Self { max_eccentricity: 64.0, least_sigma: 0.8, magnify: Magnify::Taps, ..Self::DEFAULT };
     /// Truth for tests: up to ten times the texels of the default, where the texture is far away.
     pub const REFERENCE: Self = Self {
         max_eccentricity: 1024.0,
         radius: 4.0,
         least_sigma: 1.5,
         blend: false,
-        ..Self::DEFAULT
+        ..Self::HIGH
     };
 
     /// This sampler with another filter and level mode.

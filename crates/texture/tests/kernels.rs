@@ -184,3 +184,35 @@ fn blended_weights_end_in_either_kernel() {
     };
     assert!(at(paper) > at(Magnify::None) + 0.2, "{} {}", at(paper), at(Magnify::None));
 }
+
+#[test]
+fn taps_are_the_integral_over_the_bilinear_surface() {
+    use scumble_geometry::{DVec2, Homography};
+    use scumble_texture::reference::{PixelShape, Reference};
+    let t = tiled(&noise(32, 32, 10));
+    let truth = Reference::new(&t, PixelShape::Gaussian { sigma: 0.5 }).with_density(4.0, 32);
+    // White noise, the worst that a texture can be; the last bars hold the blend with the ellipse.
+    for (major, gain, bar) in
+        [(0.3, 20.0, 58.0), (0.6, 8.0, 49.0), (0.9, 0.0, 36.0), (1.2, 0.0, 35.0)]
+    {
+        let of = |magnify| {
+            let s = Sampler { magnify, ..Sampler::DEFAULT };
+            let error: f64 = (0..60)
+                .map(|i| {
+                    let i = f64::from(i);
+                    let f = turned(i * 0.37, i * 0.83, major, 0.6 * major, 0.21 * i);
+                    let j = f.jacobian;
+                    let map = Homography::new([[j.a, j.b, f.u], [j.c, j.d, f.v], [0.0, 0.0, 1.0]]);
+                    let truth = truth.sample(&map, DVec2::ZERO);
+                    (0..4)
+                        .map(|c| (f64::from(t.sample(&f, &s).0[c]) - truth[c]).powi(2))
+                        .sum::<f64>()
+                })
+                .sum();
+            -10.0 * (error / 240.0).log10()
+        };
+        let (ellipse, taps) = (of(Magnify::None), of(Magnify::Taps));
+        println!("{major}: ellipse {ellipse:.1}, taps {taps:.1} dB");
+        assert!(taps > ellipse + gain && taps > bar, "{major}: {ellipse} {taps}");
+    }
+}
