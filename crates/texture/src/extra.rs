@@ -2,10 +2,10 @@
 //!
 //! Some footprints at a time; what the fast path can do of them it does.
 
-use crate::point;
 use crate::radial::Radial;
 use crate::texture::{into_range, point_mode};
 use crate::{Footprint, Kernel, Magnify, PixelFilter, Sampler, Texture};
+use crate::{point, probes};
 use fearless_simd::dispatch;
 use scumble_pixel::Premul;
 
@@ -21,7 +21,7 @@ pub(crate) fn takes(s: &Sampler) -> bool {
     match s.pixel {
         PixelFilter::Nearest | PixelFilter::Bilinear => false,
         PixelFilter::Ewa => s.kernel != Kernel::Gaussian || s.magnify != Magnify::None,
-        PixelFilter::Separable(_) => true,
+        PixelFilter::Separable(_) | PixelFilter::Probes => true,
     }
 }
 
@@ -53,11 +53,17 @@ fn fill_impl(t: &Texture, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mu
 enum Area {
     Gaussian,
     Radial(Radial),
+    /// At most so many.
+    Probes(u32),
 }
 
 impl Area {
     #[inline(always)]
     fn new(s: &Sampler) -> Self {
+        if s.pixel == PixelFilter::Probes {
+            // A cast takes a NaN for 0, and the row takes that for 1.
+            return Self::Probes((2.0 * s.max_eccentricity.min(512.0) - 1.0) as u32);
+        }
         match (s.kernel, s.magnify) {
             (_, Magnify::Radial(_)) => Self::Radial(Radial::new(s)),
             (Kernel::Gaussian, _) => Self::Gaussian,
@@ -94,6 +100,10 @@ impl Area {
                 t.fill_fast(|i| footprints[i], &s, out);
             }
             Self::Radial(radial) => each(t, footprints, out, |f| radial.sample(t, f)),
+            Self::Probes(most) => {
+                let mode = point_mode(s);
+                each(t, footprints, out, |f| probes::sample(t, f, mode, *most));
+            }
         }
     }
 }
@@ -139,5 +149,6 @@ pub(crate) fn cost(t: &Texture, f: &Footprint, s: &Sampler) -> usize {
         + match Area::new(s) {
             Area::Gaussian => t.cost_fast(f, &Sampler { magnify: Magnify::None, ..*s }),
             Area::Radial(radial) => radial.cost(t, f),
+            Area::Probes(most) => probes::cost(t, f, point_mode(s), most),
         }
 }

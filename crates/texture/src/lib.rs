@@ -75,6 +75,7 @@
 extern crate alloc;
 
 mod batch;
+pub mod compare;
 mod covariance;
 mod decimate;
 mod engine;
@@ -90,6 +91,8 @@ mod magnify;
 mod math;
 mod options;
 mod point;
+mod probes;
+pub mod procedural;
 mod radial;
 pub mod reference;
 mod sampler;
@@ -106,6 +109,7 @@ pub use footprint::Footprint;
 pub use kernel::{Kernel, RadialFilter};
 pub use magnify::Magnify;
 pub use options::{Decimation, Levels, TextureOptions};
+pub use probes::Probes;
 pub use sampler::{LevelMode, PixelFilter, Sampler};
 pub use separable::Separable;
 pub use simd::Simd;

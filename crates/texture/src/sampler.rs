@@ -1,3 +1,5 @@
+#[cfg(doc)]
+use crate::Probes;
 use crate::{Kernel, Magnify, Separable};
 
 /// How texels of one level make a colour.
@@ -9,6 +11,10 @@ pub enum PixelFilter {
     Bilinear,
     /// Interpolation by a sharper kernel: a filter of a place, like bilinear.
     Separable(Separable),
+    /// Trilinear probes in a row along the ellipse's major axis ([`Probes`]): at most
+    /// ⌈2a − 1⌉ for [`Sampler::max_eccentricity`] a. Better than hardware's anisotropic filter, and
+    /// cheaper than the ellipse where that is thin; but it aliases as trilinear does.
+    Probes,
     /// The elliptical weighted average: [`Sampler::kernel`] projected into the texture.
     #[default]
     Ewa,
@@ -49,7 +55,7 @@ pub struct Sampler {
     /// and probes only.
     pub magnify: Magnify,
     /// The largest ratio of the ellipse's axes; beyond it the *minor* axis is widened, which blurs
-    /// but never aliases. In 1…1024; what lies outside is clamped. Elliptical filter only.
+    /// but never aliases. In 1…1024; what lies outside is clamped. Elliptical filter and probes only.
     ///
     /// (The literature's word: it is the axis ratio, not the eccentricity of a conic.)
     pub max_eccentricity: f32,
