@@ -1,4 +1,6 @@
 //! What others do, for comparison: not for use.
+//!
+//! [`PixelFilter::Classic`](crate::PixelFilter::Classic) is another of them.
 
 use crate::math::{ceil, sqrt};
 use crate::{Footprint, LevelMode, PixelFilter, Sampler, Texture};

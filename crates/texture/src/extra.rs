@@ -2,10 +2,10 @@
 //!
 //! Some footprints at a time; what the fast path can do of them it does.
 
+use crate::classic::Classic;
 use crate::radial::Radial;
 use crate::texture::{into_range, point_mode};
-use crate::{Footprint, Kernel, Magnify, PixelFilter, Sampler, Texture};
-use crate::{point, probes};
+use crate::{Footprint, Kernel, Magnify, PixelFilter, Sampler, Texture, point, probes};
 use fearless_simd::dispatch;
 use scumble_pixel::Premul;
 
@@ -21,7 +21,7 @@ pub(crate) fn takes(s: &Sampler) -> bool {
     match s.pixel {
         PixelFilter::Nearest | PixelFilter::Bilinear => false,
         PixelFilter::Ewa => s.kernel != Kernel::Gaussian || s.magnify != Magnify::None,
-        PixelFilter::Separable(_) | PixelFilter::Probes => true,
+        PixelFilter::Separable(_) | PixelFilter::Probes | PixelFilter::Classic => true,
     }
 }
 
@@ -53,6 +53,7 @@ fn fill_impl(t: &Texture, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mu
 enum Area {
     Gaussian,
     Radial(Radial),
+    Classic(Classic),
     /// At most so many.
     Probes(u32),
 }
@@ -63,6 +64,9 @@ impl Area {
         if s.pixel == PixelFilter::Probes {
             // A cast takes a NaN for 0, and the row takes that for 1.
             return Self::Probes((2.0 * s.max_eccentricity.min(512.0) - 1.0) as u32);
+        }
+        if s.pixel == PixelFilter::Classic {
+            return Self::Classic(Classic::new(s));
         }
         match (s.kernel, s.magnify) {
             (_, Magnify::Radial(_)) => Self::Radial(Radial::new(s)),
@@ -100,6 +104,7 @@ impl Area {
                 t.fill_fast(|i| footprints[i], &s, out);
             }
             Self::Radial(radial) => each(t, footprints, out, |f| radial.sample(t, f)),
+            Self::Classic(classic) => each(t, footprints, out, |f| classic.sample(t, f)),
             Self::Probes(most) => {
                 let mode = point_mode(s);
                 each(t, footprints, out, |f| probes::sample(t, f, mode, *most));
@@ -149,6 +154,7 @@ pub(crate) fn cost(t: &Texture, f: &Footprint, s: &Sampler) -> usize {
         + match Area::new(s) {
             Area::Gaussian => t.cost_fast(f, &Sampler { magnify: Magnify::None, ..*s }),
             Area::Radial(radial) => radial.cost(t, f),
+            Area::Classic(classic) => classic.cost(t, f),
             Area::Probes(most) => probes::cost(t, f, point_mode(s), most),
         }
 }

@@ -75,6 +75,7 @@
 extern crate alloc;
 
 mod batch;
+mod classic;
 pub mod compare;
 mod covariance;
 mod decimate;
@@ -89,6 +90,7 @@ mod level;
 mod lod;
 mod magnify;
 mod math;
+mod mixture;
 mod options;
 mod point;
 mod probes;

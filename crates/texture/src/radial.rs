@@ -11,11 +11,12 @@
 
 use crate::covariance::Covariance;
 use crate::ewa::{BUDGET, Limits, auto_pick};
-use crate::kernel::{Footing, Kernel};
+use crate::kernel::Footing;
 use crate::level::Level;
 use crate::lod::{self, Pick};
 use crate::magnify::{Magnify, nearness};
 use crate::math::{ceil, floor, sqrt};
+use crate::mixture::{Mixture, Sums};
 use crate::point::lerp;
 use crate::{Footprint, LevelMode, Sampler, Texture};
 use scumble_geometry::Matrix2;
@@ -23,16 +24,10 @@ use scumble_geometry::Matrix2;
 /// Variance of bilinear reconstruction, in squared texels.
 const RECONSTRUCTION: f64 = 1.0 / 6.0;
 
-/// Below this part of the sum of the weights' magnitudes, their sum says nothing, and the texel in
-/// the middle is taken.
-const LEAST_SUM: f32 = 0.05;
-
 /// A kernel, or two that are blended inside one ellipse, made ready for many samples.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Radial {
-    kernel: Kernel,
-    /// The kernel where the texture is magnified.
-    magnified: Option<Kernel>,
+    sampler: Sampler,
     footing: Footing,
     /// A σ is half a unit of the ellipse, as the Gaussian's is; so the radius is twice the kernel's.
     limits: Limits,
@@ -42,15 +37,8 @@ pub(crate) struct Radial {
 impl Radial {
     pub(crate) fn new(s: &Sampler) -> Self {
         let limits = Limits::new(s);
-        let magnified = match s.magnify {
-            Magnify::Radial(kernel) => Some(kernel),
-            _ => None,
-        };
-        let own = match s.kernel {
-            Kernel::Gaussian => f64::from(limits.radius),
-            other => 2.0 * f64::from(other.radius()),
-        };
-        let radius = own.max(magnified.map_or(0.0, |k| 2.0 * f64::from(k.radius())));
+        // The larger of two kernels, whichever it is on the spot: the level's budget is for both.
+        let radius = 2.0 * Mixture::new(s, 0.5).radius();
         let circle = core::f64::consts::PI * radius * radius;
         let widest = 4.0 / (limits.inverse_least * sqrt(limits.inverse_ratio));
         let axes = widest.max(BUDGET / circle);
@@ -61,15 +49,18 @@ impl Radial {
             ..limits
         };
         // Two kernels share one ellipse, so it must suit any.
-        let footing = if magnified.is_some() { Footing::Grid } else { s.kernel.footing() };
-        Self { kernel: s.kernel, magnified, footing, limits, mode: s.level }
+        let footing = match s.magnify {
+            Magnify::Radial(_) => Footing::Grid,
+            _ => s.kernel.footing(),
+        };
+        Self { sampler: *s, footing, limits, mode: s.level }
     }
 
     /// The colour of one footprint, its centre brought near and its Jacobian bounded.
     #[inline(always)]
     pub(crate) fn sample(&self, t: &Texture, f: &Footprint) -> [f32; 4] {
-        let nearness = if self.magnified.is_some() { nearness(f.major_squared()) } else { 0.0 };
-        self.over_levels(t, f, |level, rows| self.average(level, t, rows, nearness), lerp)
+        let weights = Mixture::new(&self.sampler, nearness(f.major_squared()));
+        self.over_levels(t, f, |level, rows| Self::average(level, t, rows, &weights), lerp)
     }
 
     /// Texels that [`Radial::sample`] reads.
@@ -139,50 +130,13 @@ impl Radial {
     /// The weighted average over an ellipse, about the texel nearest to its centre, so that a
     /// constant comes out exact.
     #[inline(always)]
-    fn average(&self, level: &Level, t: &Texture, e: &Ellipse, nearness: f32) -> [f32; 4] {
+    fn average(level: &Level, t: &Texture, e: &Ellipse, weights: &Mixture) -> [f32; 4] {
         let [u, v] = e.centre;
         let centre = level.texel(floor(u + 0.5) as i32, floor(v + 0.5) as i32, t.wrap);
-        let mut sums = Sums { centre, texels: [0.0; 4], total: 0.0, magnitude: 0.0 };
+        let mut sums = Sums::new(centre);
         let add = |x: i32, y: i32, weight: f32| sums.add(weight, level.texel(x, y, t.wrap));
-        let cut = 0.25 * self.limits.radius_squared as f32;
-        match self.magnified {
-            Some(magnified) if nearness > 0.0 => {
-                let (near, far) = (nearness / magnified.integral(), 1.0 - nearness);
-                let far = far / self.kernel.integral();
-                e.visit(|r2| near * magnified.weight(r2) + far * self.kernel.weight(r2), add);
-            }
-            _ => e.visit(|r2| if r2 <= cut { self.kernel.weight(r2) } else { 0.0 }, add),
-        }
+        e.visit(|r2| weights.weight(r2), add);
         sums.finish()
-    }
-}
-
-/// Σ w·(t − centre), Σ w and Σ |w|.
-struct Sums {
-    centre: [f32; 4],
-    texels: [f32; 4],
-    total: f32,
-    magnitude: f32,
-}
-
-impl Sums {
-    #[inline(always)]
-    fn add(&mut self, weight: f32, texel: [f32; 4]) {
-        self.total += weight;
-        self.magnitude += weight.abs();
-        for ((sum, texel), centre) in self.texels.iter_mut().zip(texel).zip(self.centre) {
-            *sum += weight * (texel - centre);
-        }
-    }
-
-    #[inline(always)]
-    fn finish(self) -> [f32; 4] {
-        // Written so that two zeros, and a NaN, take the middle.
-        if self.total > LEAST_SUM * self.magnitude {
-            core::array::from_fn(|c| self.centre[c] + self.texels[c] / self.total)
-        } else {
-            self.centre
-        }
     }
 }
 

@@ -18,6 +18,9 @@ pub enum PixelFilter {
     /// The elliptical weighted average: [`Sampler::kernel`] projected into the texture.
     #[default]
     Ewa,
+    /// Enhanced EWA as Rutanen published it (2009), slow and a little less good:
+    /// [`Sampler::CLASSIC`], for comparison.
+    Classic,
 }
 
 /// Which levels of the pyramid are read.
@@ -95,6 +98,21 @@ impl Sampler {
         least_sigma: 1.5,
         blend: false,
         ..Self::HIGH
+    };
+
+    /// Rutanen's enhanced EWA (2009) as published, for comparison: a triangle for what is minified and
+    /// Lanczos 2 for what is magnified, an axis ratio of 30, two levels everywhere.
+    ///
+    /// Heckbert's own (1989) is this with [`Kernel::Gaussian`], here cut at the pixel's radius of 1, and
+    /// [`Magnify::None`].
+    pub const CLASSIC: Self = Self {
+        pixel: PixelFilter::Classic,
+        kernel: Kernel::Triangle,
+        magnify: Magnify::Radial(Kernel::Lanczos2),
+        max_eccentricity: 30.0,
+        radius: 2.0,
+        least_sigma: 0.5,
+        ..Self::DEFAULT
     };
 
     /// This sampler with another filter and level mode.

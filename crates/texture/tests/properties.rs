@@ -36,6 +36,7 @@ fn samplers() -> impl Strategy<Value = Sampler> {
         1 => Just(PixelFilter::Bilinear),
         1 => prop::sample::select(&Separable::ALL).prop_map(PixelFilter::Separable),
         1 => Just(PixelFilter::Probes),
+        1 => Just(PixelFilter::Classic),
         4 => Just(PixelFilter::Ewa)
     ];
     let level = prop_oneof![
