@@ -1,4 +1,9 @@
-use fearless_simd::{Simd, f32x16};
+use crate::texel::ROUNDER;
+use fearless_simd::{Simd, f32x16, i32x16, prelude::*};
+
+/// The weight at the middle of an ellipse. Weights are rounded to whole numbers, which adds noise at
+/// −90 dB and less; their products with texels are summed exactly.
+pub(crate) const PEAK: f32 = 4096.0;
 
 /// The largest argument of [`gaussian`]: a cut at 4σ.
 #[cfg(test)]
@@ -10,7 +15,7 @@ pub(crate) const DOMAIN: f32 = 8.0;
 /// e^(−x) = (e^(−x/8))⁸ and the inner one, on [0, 1], is the polynomial through the six Chebyshev
 /// nodes of that interval (a test rebuilds it).
 #[inline(always)]
-pub(crate) fn gaussian(x: f32) -> f32 {
+fn gaussian(x: f32) -> f32 {
     let x2 = x * x;
     let p = (C[0] + x * C[1]) + x2 * ((C[2] + x * C[3]) + x2 * (C[4] + x * C[5]));
     let p2 = p * p;
@@ -18,9 +23,22 @@ pub(crate) fn gaussian(x: f32) -> f32 {
     p4 * p4
 }
 
+/// The weight at an exponent in [0, 8].
+#[inline(always)]
+pub(crate) fn weight(x: f32) -> i32 {
+    (gaussian(x) * PEAK + ROUNDER).to_bits() as i32 - ROUNDER.to_bits() as i32
+}
+
+/// [`weight`] at sixteen exponents, and 0 where they are above `cut`.
+#[inline(always)]
+pub(crate) fn weight_x16<S: Simd>(simd: S, x: f32x16<S>, cut: f32) -> i32x16<S> {
+    let weight = x.simd_le(cut).select(gaussian_x16(x), f32x16::splat(simd, 0.0));
+    (weight * PEAK + ROUNDER).bitcast::<i32x16<S>>() - ROUNDER.to_bits() as i32
+}
+
 /// [`gaussian`] of sixteen numbers, the same bits.
 #[inline(always)]
-pub(crate) fn gaussian_x16<S: Simd>(x: f32x16<S>) -> f32x16<S> {
+fn gaussian_x16<S: Simd>(x: f32x16<S>) -> f32x16<S> {
     let x2 = x * x;
     let p = (x * C[1] + C[0]) + x2 * ((x * C[3] + C[2]) + x2 * (x * C[5] + C[4]));
     let p2 = p * p;
@@ -79,6 +97,7 @@ mod tests {
             let x = DOMAIN * f32::from(i) / f32::from(steps);
             let truth = (-f64::from(x)).exp();
             assert!((f64::from(gaussian(x)) / truth - 1.0).abs() < 1e-5, "{x}");
+            assert!((f64::from(weight(x)) - truth * 4096.0).abs() < 0.55, "{x}");
         }
     }
 }

@@ -3,6 +3,7 @@
 use crate::level::Level;
 use crate::lod::{self, Pick};
 use crate::math::floor;
+use crate::texel::color;
 use crate::texture::into_range;
 use crate::{Footprint, LevelMode, Texture, Wrap};
 use scumble_pixel::Premul;
@@ -29,8 +30,8 @@ pub(crate) fn bilinear(level: &Level, wrap: Wrap, u: f64, v: f64) -> [f32; 4] {
     if (x0 >= 0) & (y0 >= 0) & (x0 + 1 < level.width as i32) & (y0 + 1 < level.height as i32) {
         let i = y0 as usize * level.stride + x0 as usize;
         let j = i + level.stride;
-        let t = &level.texels;
-        return lerp(lerp(t[i], t[i + 1], fx), lerp(t[j], t[j + 1], fx), fy);
+        let t = |i: usize| color(level.texels[i]);
+        return lerp(lerp(t(i), t(i + 1), fx), lerp(t(j), t(j + 1), fx), fy);
     }
     across_the_edge(level, wrap, [x0, y0], [fx, fy])
 }
