@@ -1,15 +1,19 @@
 use crate::level::Level;
+use crate::point::{self, Square};
 use crate::walk::Walk;
 use crate::walk_simd::Scratch;
 use crate::{Texture, Wrap};
-use fearless_simd::Simd;
+use fearless_simd::{Simd, f32x8, i16x8, prelude::*};
 
 /// The inner loops, in scalar code or in vectors: the same bits from each.
 pub(crate) trait Engine: Copy {
     /// The weighted average of the texels in an ellipse.
     fn walk(self, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4];
 
-    /// Many of them.
+    /// The bilinear mean of a square, in steps.
+    fn bilinear(self, square: &Square, fx: f32, fy: f32) -> [f32; 4];
+
+    /// Many walks.
     fn walk_all(self, t: &Texture, jobs: &[Job], scratch: &mut Scratch, out: &mut [[f32; 4]]);
 }
 
@@ -34,6 +38,11 @@ impl Engine for Scalar {
         crate::walk::walk(level, wrap, w)
     }
 
+    #[inline(always)]
+    fn bilinear(self, square: &Square, fx: f32, fy: f32) -> [f32; 4] {
+        point::bilinear(square, fx, fy)
+    }
+
     fn walk_all(self, t: &Texture, jobs: &[Job], _: &mut Scratch, out: &mut [[f32; 4]]) {
         for (job, out) in jobs.iter().zip(out) {
             *out = self.walk(&t.levels[job.level], t.wrap, &job.walk);
@@ -49,6 +58,17 @@ impl<S: Simd> Engine for Vector<S> {
             #[inline(always)]
             || crate::walk_simd::walk(self.0, level, wrap, w),
         )
+    }
+
+    #[inline(always)]
+    fn bilinear(self, square: &Square, fx: f32, fy: f32) -> [f32; 4] {
+        let row = |row: &[[i16; 4]; 2]| {
+            let (a, b) = i16x8::from_slice(self.0, row.as_flattened()).widen();
+            a.combine(b).to_float::<f32x8<S>>()
+        };
+        let top = row(&square[0]);
+        let (left, right) = (top + (row(&square[1]) - top) * fy).split();
+        (left + (right - left) * fx).to_array()
     }
 
     #[inline(always)]

@@ -31,6 +31,12 @@ pub(crate) fn round(v: f32) -> i16 {
     (v + ROUNDER).to_bits() as i16
 }
 
+/// The colour in steps of a texel.
+#[inline(always)]
+pub(crate) fn steps(t: Texel) -> [f32; 4] {
+    t.map(f32::from)
+}
+
 /// The colour of a texel.
 #[inline(always)]
 pub(crate) fn color(t: Texel) -> [f32; 4] {

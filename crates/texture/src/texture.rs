@@ -2,7 +2,7 @@ use crate::batch;
 use crate::engine::{Engine, Scalar, Vector};
 use crate::ewa::{self, Limits};
 use crate::level::{LARGEST, Level, stride};
-use crate::point::{self, bilinear, nearest};
+use crate::point::{self, Bilinear, Nearest};
 use crate::pyramid::{self, Bytes, Rows};
 use crate::texel::{self, Texel};
 use crate::wrap::Nearer;
@@ -168,8 +168,12 @@ impl Texture {
         out: &mut [Premul],
     ) {
         match s.pixel {
-            PixelFilter::Nearest => return point::fill(self, at, point_mode(s), nearest, out),
-            PixelFilter::Bilinear => return point::fill(self, at, point_mode(s), bilinear, out),
+            PixelFilter::Nearest => {
+                return point::fill(self, engine, at, point_mode(s), Nearest, out);
+            }
+            PixelFilter::Bilinear => {
+                return point::fill(self, engine, at, point_mode(s), Bilinear, out);
+            }
             PixelFilter::Ewa => (),
         }
         let limits = Limits::new(s);

@@ -4,7 +4,7 @@
 use crate::Wrap;
 use crate::covariance::Covariance;
 use crate::ewa::Limits;
-use crate::gaussian::weight;
+use crate::gaussian::{UNIT, weight};
 use crate::level::{Frame, Level};
 use crate::math::{floor, floor32, sqrt32};
 use crate::texel::{STEP, Texel, of_color};
@@ -16,8 +16,8 @@ pub(crate) const LANES: usize = 4;
 /// An ellipse in one level, ready to be walked.
 ///
 /// Texel (x0 + i, y0 + j) lies at dv = j − fy below the centre; the ellipse's middle in its row is at
-/// fx + slope·dv from x0, and with dx the distance from there the Gaussian's exponent is
-/// e = row_scale·dv² + run_scale·dx². Both terms are positive, so nothing cancels.
+/// fx + slope·dv from x0, and with dx the distance from there the Gaussian's exponent, in [`UNIT`]s,
+/// is e = row_scale·dv² + run_scale·dx². Both terms are positive, so nothing cancels.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Walk {
     /// The whole part of the centre, in index space.
@@ -38,11 +38,11 @@ pub(crate) struct Walk {
     pub(crate) run: f32,
     /// Σuv/Σvv: how the middle moves from row to row.
     pub(crate) slope: f32,
-    /// ½/Σvv.
+    /// ½/Σvv, in units.
     pub(crate) row_scale: f32,
-    /// ½Σvv/det Σ.
+    /// ½Σvv/det Σ, in units.
     pub(crate) run_scale: f32,
-    /// Weights with e above this are 0: ½R².
+    /// Weights with e above this are 0: ½R², in units.
     pub(crate) cut: f32,
     /// 1 if every texel of the walk lies inside the level, or in tiles that are as good, else 0.
     pub(crate) inside: i32,
@@ -71,7 +71,7 @@ impl Walk {
         // are the numbers of the walk itself, which only grow or only fall with the row.
         let first = -floor32(rise - fy);
         let last = first + (4.0 * blocks - 1.0);
-        let start = |j: f32| floor32((fx + slope * (j - fy)) - run) + 1.0;
+        let start = |j: f32| floor32(slope * (j - fy) + (fx - run)) + 1.0;
         let (a, b) = (start(first), start(last));
         let (left, right) = (a.min(b), a.max(b) + 4.0 * groups);
         let inside = (x0 + f64::from(left) >= frame.low)
@@ -88,11 +88,17 @@ impl Walk {
             groups: groups as i32,
             run,
             slope,
-            row_scale: 0.5 * inverse_vv,
-            run_scale: 0.5 * (vv / det),
+            row_scale: 0.5 * UNIT * inverse_vv,
+            run_scale: 0.5 * UNIT * (vv / det),
             cut: limits.cut,
             inside: i32::from(inside),
         }
+    }
+
+    /// The first row of a block.
+    #[inline(always)]
+    pub(crate) fn row_of(&self, block: i32) -> i32 {
+        self.first + block * LANES as i32
     }
 
     /// Blocks times groups of a walk inside its level; 0 if it is not.
@@ -179,16 +185,17 @@ impl Row<'_> {
 pub(crate) fn walk(level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
     let mut sums = [0i64; 4];
     let mut total = 0;
-    for j in (0..w.blocks * LANES as i32).map(|j| w.first + j) {
-        let dv = j as f32 - w.fy;
+    for (j, r) in (0..w.blocks).flat_map(|b| (0..LANES as i32).map(move |r| (w.row_of(b), r))) {
+        let dv = r as f32 + (j as f32 - w.fy);
         let e = w.row_scale * (dv * dv);
-        let middle = w.fx + w.slope * dv;
-        let start = floor32(middle - w.run) + 1.0;
-        let row = w.row(j, level, wrap);
+        let low = (w.slope * dv) + (w.fx - w.run);
+        let before = floor32(low);
+        let offset = (1.0 - w.run) - (low - before);
+        let row = w.row(j + r, level, wrap);
         for k in (0..w.groups).map(|k| k * LANES as i32) {
-            let run = row.with_run(w.x0 + start as i32 + k, |run| *run);
+            let run = row.with_run(w.x0 + 1 + before as i32 + k, |run| *run);
             for (i, texel) in run.iter().enumerate() {
-                let dx = (start + (k + i as i32) as f32) - middle;
+                let dx = (k + i as i32) as f32 + offset;
                 let e = e + w.run_scale * (dx * dx);
                 let weight = if e <= w.cut { weight(e) } else { 0 };
                 total += weight;

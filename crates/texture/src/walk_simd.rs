@@ -2,7 +2,7 @@
 //! products of two rows' texels, in pairs. The same whole numbers as in [`crate::walk`].
 
 use crate::engine::Job;
-use crate::gaussian::weight_x16;
+use crate::gaussian;
 use crate::level::Level;
 use crate::texel::Texel;
 use crate::walk::{LANES, Walk};
@@ -86,13 +86,16 @@ fn weigh<S: Simd>(simd: S, level: &Level, w: &Walk, pieces: &mut [Piece]) {
     let (stride, [mask_x, mask_y]) = (level.stride as i32, level.mask);
     let row = i32x4::load_array(simd, [0, 1, 2, 3]) + w.y0;
     let mut pieces = pieces.iter_mut();
-    for j in (0..w.blocks).map(|block| w.first + block * LANES as i32) {
+    for j in (0..w.blocks).map(|block| w.row_of(block)) {
         let block = Block::new(simd, w, j);
-        let starts = block.columns(w);
+        let mut starts = block.columns(w);
+        let mut columns = f32x16::load_array(simd, COLUMNS);
         let rows = ((row + j) & mask_y) * stride;
-        for (k, piece) in (0..w.groups).map(|k| k * LANES as i32).zip(&mut pieces) {
-            piece.weights = block.weights(simd, w, k).to_array();
-            piece.offsets = (rows + ((starts + k) & mask_x)).to_array();
+        for (_, piece) in (0..w.groups).zip(&mut pieces) {
+            piece.weights = block.weights(simd, w, columns).to_array();
+            piece.offsets = (rows + (starts & mask_x)).to_array();
+            columns += LANES as f32;
+            starts += LANES as i32;
         }
     }
 }
@@ -118,11 +121,14 @@ fn gather<S: Simd>(simd: S, level: &Level, wrap: Wrap, walk: &Walk, pieces: &[Pi
 #[inline(always)]
 pub(crate) fn walk<S: Simd>(simd: S, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
     let mut sums = Sums::new(simd);
-    for j in (0..w.blocks).map(|block| w.first + block * LANES as i32) {
+    for j in (0..w.blocks).map(|block| w.row_of(block)) {
         let block = Block::new(simd, w, j);
         let starts = block.columns(w).to_array();
+        let mut columns = f32x16::load_array(simd, COLUMNS);
         for k in (0..w.groups).map(|k| k * LANES as i32) {
-            sums.add(simd, block.weights(simd, w, k), |r| {
+            let weights = block.weights(simd, w, columns);
+            columns += LANES as f32;
+            sums.add(simd, weights, |r| {
                 let row = w.row(j + r as i32, level, wrap);
                 let run = |run: &[Texel; LANES]| i16x16::from_slice(simd, run.as_flattened());
                 row.with_run(starts[r] + k, run)
@@ -137,39 +143,37 @@ pub(crate) fn walk<S: Simd>(simd: S, level: &Level, wrap: Wrap, w: &Walk) -> [f3
 struct Block<S: Simd> {
     /// The exponent's part from the row.
     e: f32x16<S>,
-    /// The ellipse's middle in the row, and the first texel, from x0.
-    middle: f32x16<S>,
-    start: f32x16<S>,
+    /// The texel before the first, from x0.
+    before: f32x16<S>,
+    /// From the ellipse's middle to the first texel of the next group.
+    offset: f32x16<S>,
 }
 
 impl<S: Simd> Block<S> {
     /// Rows `j` to `j + 3`.
     #[inline(always)]
     fn new(simd: S, w: &Walk, j: i32) -> Self {
-        let dv = (f32x16::load_array(simd, ROWS) + j as f32) - w.fy;
+        let dv = f32x16::load_array(simd, ROWS) + (j as f32 - w.fy);
         let e = (dv * dv) * w.row_scale;
-        let middle = dv * w.slope + w.fx;
-        let start = (middle - w.run).floor() + 1.0;
-        Self { e, middle, start }
+        let low = dv * w.slope + (w.fx - w.run);
+        let before = low.floor();
+        let offset = f32x16::splat(simd, 1.0 - w.run) - (low - before);
+        Self { e, before, offset }
     }
 
     /// The first texel of each row.
     #[inline(always)]
     fn columns(&self, w: &Walk) -> i32x4<S> {
-        let (starts, _) = self.start.split();
-        let (starts, _) = starts.split();
-        starts.to_int::<i32x4<S>>() + w.x0
+        let (before, _) = self.before.split();
+        let (before, _) = before.split();
+        before.to_int::<i32x4<S>>() + (w.x0 + 1)
     }
 
-    /// The weights of the four texels from `k` on of each row.
+    /// The weights of four texels of each row: `columns` are their numbers.
     #[inline(always)]
-    fn weights(&self, simd: S, w: &Walk, k: i32) -> i16x16<S> {
-        let columns = f32x16::load_array(simd, COLUMNS) + k as f32;
-        let dx = (self.start + columns) - self.middle;
-        let e = self.e + (dx * dx) * w.run_scale;
-        let weights = weight_x16(simd, e, w.cut);
-        let (weights, _) = weights.narrow(weights).split();
-        weights
+    fn weights(&self, simd: S, w: &Walk, columns: f32x16<S>) -> i16x16<S> {
+        let dx = columns + self.offset;
+        gaussian::weights(simd, self.e + (dx * dx) * w.run_scale, w.cut)
     }
 }
 
