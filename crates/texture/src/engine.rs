@@ -1,5 +1,6 @@
 use crate::level::Level;
-use crate::point::{self, Square};
+use crate::point;
+use crate::texel::Texel;
 use crate::walk::Walk;
 use crate::walk_simd::Scratch;
 use crate::{Texture, Wrap};
@@ -10,8 +11,8 @@ pub(crate) trait Engine: Copy {
     /// The weighted average of the texels in an ellipse.
     fn walk(self, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4];
 
-    /// The bilinear mean of a square, in steps.
-    fn bilinear(self, square: &Square, fx: f32, fy: f32) -> [f32; 4];
+    /// The bilinear mean of two rows of two texels, in steps.
+    fn bilinear(self, top: &[Texel; 2], bottom: &[Texel; 2], fx: f32, fy: f32) -> [f32; 4];
 
     /// Many walks.
     fn walk_all(self, t: &Texture, jobs: &[Job], scratch: &mut Scratch, out: &mut [[f32; 4]]);
@@ -39,8 +40,8 @@ impl Engine for Scalar {
     }
 
     #[inline(always)]
-    fn bilinear(self, square: &Square, fx: f32, fy: f32) -> [f32; 4] {
-        point::bilinear(square, fx, fy)
+    fn bilinear(self, top: &[Texel; 2], bottom: &[Texel; 2], fx: f32, fy: f32) -> [f32; 4] {
+        point::bilinear(top, bottom, fx, fy)
     }
 
     fn walk_all(self, t: &Texture, jobs: &[Job], _: &mut Scratch, out: &mut [[f32; 4]]) {
@@ -61,13 +62,9 @@ impl<S: Simd> Engine for Vector<S> {
     }
 
     #[inline(always)]
-    fn bilinear(self, square: &Square, fx: f32, fy: f32) -> [f32; 4] {
-        let row = |row: &[[i16; 4]; 2]| {
-            let (a, b) = i16x8::from_slice(self.0, row.as_flattened()).widen();
-            a.combine(b).to_float::<f32x8<S>>()
-        };
-        let top = row(&square[0]);
-        let (left, right) = (top + (row(&square[1]) - top) * fy).split();
+    fn bilinear(self, top: &[Texel; 2], bottom: &[Texel; 2], fx: f32, fy: f32) -> [f32; 4] {
+        let top = steps(self.0, top);
+        let (left, right) = (top + (steps(self.0, bottom) - top) * fy).split();
         (left + (right - left) * fx).to_array()
     }
 
@@ -78,4 +75,11 @@ impl<S: Simd> Engine for Vector<S> {
             || crate::walk_simd::walk_all(self.0, t, jobs, scratch, out),
         );
     }
+}
+
+/// Two texels in steps.
+#[inline(always)]
+fn steps<S: Simd>(simd: S, texels: &[Texel; 2]) -> f32x8<S> {
+    let (a, b) = i16x8::from_slice(simd, texels.as_flattened()).widen();
+    a.combine(b).to_float::<f32x8<S>>()
 }

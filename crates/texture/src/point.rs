@@ -52,14 +52,18 @@ impl Point for Nearest {
             x[i] = floor(u[i] * su) as i32 & level.mask[0];
             y[i] = floor(v[i] * sv) as i32 & level.mask[1];
         }
+        let mut colors = [[0.0; 4]; N];
         if holds(level, &x, &y, 1) {
-            core::array::from_fn(|i| {
+            for i in 0..N {
                 let row = y[i] as u32 as usize * level.stride;
-                steps(level.texels[row + x[i] as u32 as usize])
-            })
+                colors[i] = steps(level.texels[row + x[i] as u32 as usize]);
+            }
         } else {
-            core::array::from_fn(|i| steps(level.stored(x[i], y[i], wrap)))
+            for i in 0..N {
+                colors[i] = steps(level.stored(x[i], y[i], wrap));
+            }
         }
+        colors
     }
 }
 
@@ -84,15 +88,20 @@ impl Point for Bilinear {
             fy[i] = (v - y0) as f32;
         }
         let inside = holds(level, &x, &y, 2);
-        core::array::from_fn(|i| {
-            let rows = if inside {
-                let first = y[i] as u32 as usize * level.stride + x[i] as u32 as usize;
-                square(level, first)
-            } else {
-                square_across(level, wrap, x[i], y[i])
+        let mut colors = [[0.0; 4]; N];
+        for i in 0..N {
+            let top = y[i] as u32 as usize * level.stride + x[i] as u32 as usize;
+            let bottom = top + level.stride;
+            let run = |i: usize| level.texels.get(i..i + 2)?.first_chunk();
+            colors[i] = match (run(top), run(bottom)) {
+                (Some(top), Some(bottom)) if inside => engine.bilinear(top, bottom, fx[i], fy[i]),
+                _ => {
+                    let [top, bottom] = square_across(level, wrap, x[i], y[i]);
+                    engine.bilinear(&top, &bottom, fx[i], fy[i])
+                }
             };
-            engine.bilinear(&rows, fx[i], fy[i])
-        })
+        }
+        colors
     }
 }
 
@@ -107,31 +116,18 @@ fn holds<const N: usize>(level: &Level, x: &[i32; N], y: &[i32; N], side: i32) -
     inside
 }
 
-/// Two texels of each of two rows.
-pub(crate) type Square = [[Texel; 2]; 2];
-
-/// The square that begins with a texel of the level.
-#[inline(always)]
-fn square(level: &Level, first: usize) -> Square {
-    let row = |i: usize| {
-        let run = level.texels.get(i..i + 2).and_then(|run| run.first_chunk());
-        run.copied().unwrap_or_default()
-    };
-    [row(first), row(first + level.stride)]
-}
-
-/// The square that begins at (x, y), where a texel of it may lie outside.
+/// Two texels of each of two rows, the first at (x, y); they may lie outside.
 #[cold]
 #[inline(never)]
-fn square_across(level: &Level, wrap: Wrap, x: i32, y: i32) -> Square {
+fn square_across(level: &Level, wrap: Wrap, x: i32, y: i32) -> [[Texel; 2]; 2] {
     [y, y + 1].map(|y| [x, x + 1].map(|x| level.stored(x, y, wrap)))
 }
 
-/// The bilinear mean of a square, in steps: first down, then along.
+/// The bilinear mean of two rows of two texels, in steps: first down, then along.
 #[inline(always)]
-pub(crate) fn bilinear(square: &Square, fx: f32, fy: f32) -> [f32; 4] {
-    let [top, bottom] = square;
-    let [left, right] = core::array::from_fn(|i| lerp(steps(top[i]), steps(bottom[i]), fy));
+pub(crate) fn bilinear(top: &[Texel; 2], bottom: &[Texel; 2], fx: f32, fy: f32) -> [f32; 4] {
+    let left = lerp(steps(top[0]), steps(bottom[0]), fy);
+    let right = lerp(steps(top[1]), steps(bottom[1]), fy);
     lerp(left, right, fx)
 }
 
