@@ -3,7 +3,7 @@
 use crate::engine::Engine;
 use crate::level::Level;
 use crate::lod::{self, Pick};
-use crate::math::floor;
+use crate::math::{floor, whole};
 use crate::texel::{STEP, Texel, steps};
 use crate::texture::into_range;
 use crate::{Footprint, LevelMode, Texture, Wrap};
@@ -49,19 +49,23 @@ impl Point for Nearest {
         let [su, sv] = level.frame.scale;
         let (mut x, mut y) = ([0; N], [0; N]);
         for i in 0..N {
-            x[i] = floor(u[i] * su) as i32 & level.mask[0];
-            y[i] = floor(v[i] * sv) as i32 & level.mask[1];
+            x[i] = whole(floor(u[i] * su)) & level.mask[0];
+            y[i] = whole(floor(v[i] * sv)) & level.mask[1];
         }
-        let mut colors = [[0.0; 4]; N];
+        let mut texels = [[0; 4]; N];
         if holds(level, &x, &y, 1) {
             for i in 0..N {
                 let row = y[i] as u32 as usize * level.stride;
-                colors[i] = steps(level.texels[row + x[i] as u32 as usize]);
+                texels[i] = level.texels[row + x[i] as u32 as usize];
             }
         } else {
             for i in 0..N {
-                colors[i] = steps(level.stored(x[i], y[i], wrap));
+                texels[i] = level.stored(x[i], y[i], wrap);
             }
+        }
+        let mut colors = [[0.0; 4]; N];
+        for (color, t) in colors.as_flattened_mut().iter_mut().zip(texels.as_flattened()) {
+            *color = f32::from(*t);
         }
         colors
     }
@@ -82,8 +86,8 @@ impl Point for Bilinear {
         for i in 0..N {
             let (u, v) = (u[i] * su - 0.5, v[i] * sv - 0.5);
             let (x0, y0) = (floor(u), floor(v));
-            x[i] = x0 as i32;
-            y[i] = y0 as i32;
+            x[i] = whole(x0);
+            y[i] = whole(y0);
             fx[i] = (u - x0) as f32;
             fy[i] = (v - y0) as f32;
         }
@@ -198,11 +202,19 @@ impl<const N: usize> Places<N> {
             places.v[i] = f.v;
             step[i] = f.longest_step_squared();
         }
-        for i in 0..N {
-            let detail = if blends { lod::detail(step[i]) } else { 0.0 };
-            let Pick { level, coarser } = lod::pick(step[i], detail, mode, last);
-            places.level[i] = level as u32;
-            places.coarser[i] = coarser;
+        // A loop for each mode: in one for all, every place would pay for the dearest.
+        let mut pick = |mode| {
+            for i in 0..N {
+                let detail = if mode == LevelMode::Linear { lod::detail(step[i]) } else { 0.0 };
+                let Pick { level, coarser } = lod::pick(step[i], detail, mode, last);
+                places.level[i] = level as u32;
+                places.coarser[i] = coarser;
+            }
+        };
+        match mode {
+            LevelMode::Zero => (),
+            LevelMode::Nearest => pick(LevelMode::Nearest),
+            LevelMode::Linear | LevelMode::Auto => pick(LevelMode::Linear),
         }
         places
     }

@@ -6,7 +6,7 @@ use crate::covariance::Covariance;
 use crate::ewa::Limits;
 use crate::gaussian::{UNIT, weight};
 use crate::level::{Frame, Level};
-use crate::math::{floor, floor32, sqrt32};
+use crate::math::{floor, floor32, sqrt32, whole};
 use crate::texel::{STEP, Texel, of_color};
 
 /// Rows walked together, and texels of each. Their weights are one vector of sixteen floats, and most
@@ -79,8 +79,8 @@ impl Walk {
             & (y0 + f64::from(first) >= frame.low)
             & (y0 + f64::from(last) < frame.size[1]);
         Self {
-            x0: x0 as i32,
-            y0: y0 as i32,
+            x0: whole(x0),
+            y0: whole(y0),
             fx,
             fy,
             first: first as i32,
