@@ -5,7 +5,8 @@
 use crate::classic::Classic;
 use crate::radial::Radial;
 use crate::texture::{into_range, point_mode};
-use crate::{Footprint, Kernel, Magnify, PixelFilter, Sampler, Texture, point, probes};
+use crate::{Footprint, Kernel, Magnify, PixelFilter, Sampler, Separable, Texture};
+use crate::{place, point, probes};
 use fearless_simd::dispatch;
 use scumble_pixel::Premul;
 
@@ -35,10 +36,6 @@ pub(crate) fn fill(t: &Texture, at: impl Fn(usize) -> Footprint, s: &Sampler, ou
 
 #[inline(always)]
 fn fill_impl(t: &Texture, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mut [Premul]) {
-    if let PixelFilter::Separable(kernel) = s.pixel {
-        let filter = |level: &_, wrap, u, v| kernel.sample(level, wrap, u, v);
-        return point::fill(t, at, point_mode(s), filter, out);
-    }
     let area = Area::new(s);
     for (chunk, out) in out.chunks_mut(BATCH).enumerate() {
         let mut footprints = [Footprint::point(0.0, 0.0); BATCH];
@@ -49,24 +46,28 @@ fn fill_impl(t: &Texture, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mu
     }
 }
 
-/// A filter over the footprint's area, made ready.
+/// A filter, made ready.
 enum Area {
     Gaussian,
     Radial(Radial),
     Classic(Classic),
     /// At most so many.
     Probes(u32),
+    /// None: a filter of the place.
+    Separable(Separable),
 }
 
 impl Area {
     #[inline(always)]
     fn new(s: &Sampler) -> Self {
-        if s.pixel == PixelFilter::Probes {
-            // A cast takes a NaN for 0, and the row takes that for 1.
-            return Self::Probes((2.0 * s.max_eccentricity.min(512.0) - 1.0) as u32);
-        }
-        if s.pixel == PixelFilter::Classic {
-            return Self::Classic(Classic::new(s));
+        match s.pixel {
+            PixelFilter::Separable(kernel) => return Self::Separable(kernel),
+            PixelFilter::Classic => return Self::Classic(Classic::new(s)),
+            PixelFilter::Probes => {
+                // A cast takes a NaN for 0, and the row takes that for 1.
+                return Self::Probes((2.0 * s.max_eccentricity.min(512.0) - 1.0) as u32);
+            }
+            _ => (),
         }
         match (s.kernel, s.magnify) {
             (_, Magnify::Radial(_)) => Self::Radial(Radial::new(s)),
@@ -79,7 +80,7 @@ impl Area {
     #[inline(always)]
     fn fill(&self, t: &Texture, footprints: &Footprints, s: &Sampler, out: &mut [Premul]) {
         let mut near = [0.0f32; BATCH];
-        if s.magnify.is_apart() {
+        if s.magnify.is_apart() && !matches!(self, Self::Separable(_)) {
             for (near, f) in near.iter_mut().zip(footprints) {
                 *near = s.magnify.nearness(f.major_squared());
             }
@@ -102,6 +103,14 @@ impl Area {
             Self::Gaussian => {
                 let s = Sampler { magnify: Magnify::None, ..*s };
                 t.fill_fast(|i| footprints[i], &s, out);
+            }
+            Self::Separable(kernel) => {
+                let mode = point_mode(s);
+                for (out, f) in out.iter_mut().zip(footprints) {
+                    let f = t.nearer(f);
+                    let color = || into_range(place::sample(t, &f, mode, *kernel));
+                    *out = if f.is_finite() { color() } else { t.average() };
+                }
             }
             Self::Radial(radial) => each(t, footprints, out, |f| radial.sample(t, f)),
             Self::Classic(classic) => each(t, footprints, out, |f| classic.sample(t, f)),
@@ -142,6 +151,10 @@ fn mix(a: Premul, b: Premul, t: f32) -> Premul {
 
 /// Texels that a sample reads, those of weight 0 included; the centre has been brought near.
 pub(crate) fn cost(t: &Texture, f: &Footprint, s: &Sampler) -> usize {
+    let area = Area::new(s);
+    if let Area::Separable(kernel) = area {
+        return place::cost(t, f, point_mode(s), kernel);
+    }
     let near = s.magnify.nearness(f.major_squared());
     let magnified = if near > 0.0 { s.magnify.texels() } else { 0 };
     if near >= 1.0 {
@@ -151,7 +164,8 @@ pub(crate) fn cost(t: &Texture, f: &Footprint, s: &Sampler) -> usize {
         return 0;
     }
     magnified
-        + match Area::new(s) {
+        + match area {
+            Area::Separable(_) => 0,
             Area::Gaussian => t.cost_fast(f, &Sampler { magnify: Magnify::None, ..*s }),
             Area::Radial(radial) => radial.cost(t, f),
             Area::Classic(classic) => classic.cost(t, f),

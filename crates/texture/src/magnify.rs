@@ -1,6 +1,6 @@
 use crate::level::Level;
 use crate::math::sqrt;
-use crate::{Footprint, Kernel, Separable, Wrap, point, taps};
+use crate::{Footprint, Kernel, Separable, Wrap, place, taps};
 
 /// What is made of a texture where a pixel sees less than about a texel of it.
 ///
@@ -90,7 +90,7 @@ impl Magnify {
         let kernel = match self {
             Self::Taps => return taps::sample(level, wrap, f),
             Self::None | Self::Radial(_) | Self::Bilinear => {
-                return point::bilinear(level, wrap, f.u, f.v);
+                return place::bilinear(level, wrap, f.u, f.v);
             }
             Self::CatmullRom => Separable::CatmullRom,
             Self::Mitchell => Separable::Mitchell,

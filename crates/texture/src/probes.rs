@@ -1,8 +1,9 @@
 //! Anisotropic filtering by a row of round probes along the footprint's major axis.
 
-use crate::gaussian::gaussian;
-use crate::lod::{self, Pick};
+use crate::kernel::gaussian;
+use crate::lod::Pick;
 use crate::math::{ceil, sqrt};
+use crate::place::{self, pick};
 use crate::procedural::Source;
 use crate::{Footprint, LevelMode, Texture, point};
 use scumble_geometry::Matrix2;
@@ -126,13 +127,13 @@ fn place(k: u32, count: u32) -> (f32, f32) {
 #[inline(always)]
 pub(crate) fn sample(t: &Texture, f: &Footprint, mode: LevelMode, most: u32) -> [f32; 4] {
     let row = Row::new(f, most);
-    let Pick { level, coarser } = pick(t, &row, mode);
+    let Pick { level, coarser } = pick(t, &row.spot(0), mode);
     let in_level = |index: usize| {
         let level = &t.levels[index];
         let [su, sv] = level.frame.scale;
         row.average(|spot| {
             let f = t.nearer(spot);
-            point::bilinear(level, t.wrap, f.u * su, f.v * sv)
+            place::bilinear(level, t.wrap, f.u * su, f.v * sv)
         })
     };
     let fine = in_level(level);
@@ -142,13 +143,6 @@ pub(crate) fn sample(t: &Texture, f: &Footprint, mode: LevelMode, most: u32) -> 
 /// Texels that [`sample`] reads.
 pub(crate) fn cost(t: &Texture, f: &Footprint, mode: LevelMode, most: u32) -> usize {
     let row = Row::new(f, most);
-    let levels = if pick(t, &row, mode).coarser > 0.0 { 2 } else { 1 };
+    let levels = if pick(t, &row.spot(0), mode).coarser > 0.0 { 2 } else { 1 };
     4 * levels * row.count as usize
-}
-
-/// The levels of a row's spots.
-#[inline(always)]
-fn pick(t: &Texture, row: &Row, mode: LevelMode) -> Pick {
-    let step = row.spot(0).longest_step_squared();
-    lod::pick(step, lod::detail(step), mode, t.levels.len() - 1)
 }

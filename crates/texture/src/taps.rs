@@ -14,6 +14,7 @@
 use crate::level::Level;
 use crate::magnify::fall;
 use crate::math::{floor, floor32, sqrt};
+use crate::texel::{STEP, steps};
 use crate::{Footprint, Wrap};
 
 /// Where along an axis, in σ.
@@ -60,7 +61,8 @@ pub(crate) fn sample(level: &Level, wrap: Wrap, f: &Footprint) -> [f32; 4] {
         places.average(|x, y| {
             let i = first as isize + y as isize * level.stride as isize + x as isize;
             let rest = level.texels.get(i as usize..).unwrap_or_default();
-            rest.as_flattened().first_chunk().copied().unwrap_or_default()
+            let pair: Option<&[i16; 8]> = rest.as_flattened().first_chunk();
+            pair.map_or([0.0; 8], |pair| pair.map(f32::from))
         })
     } else {
         across_the_edge(level, wrap, &places)
@@ -73,7 +75,7 @@ pub(crate) fn sample(level: &Level, wrap: Wrap, f: &Footprint) -> [f32; 4] {
 fn across_the_edge(level: &Level, wrap: Wrap, places: &Places) -> [f32; 4] {
     let [x0, y0] = places.base;
     places.average(|x, y| {
-        let [a, b] = [0, 1].map(|i| level.texel(x0 + x + i, y0 + y, wrap));
+        let [a, b] = [0, 1].map(|i| steps(level.stored(x0 + x + i, y0 + y, wrap)));
         [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]
     })
 }
@@ -127,7 +129,7 @@ impl Places {
     }
 
     /// The weighted mean of the bilinear surface at the places, about a texel, so that a constant
-    /// stays what it is. `pair` gives the texel in a column and row, and the next.
+    /// stays what it is. `pair` gives the texel in a column and row, and the next, in steps.
     ///
     /// Four places share a column: there two columns of texels are averaged first, each by itself,
     /// and then the two.
@@ -151,7 +153,7 @@ impl Places {
                 sum[c] += (columns[c] + (columns[c + 4] - columns[c]) * fx) * along;
             }
         }
-        core::array::from_fn(|c| centres[c] + sum[c])
+        core::array::from_fn(|c| (centres[c] + sum[c]) * STEP)
     }
 }
 

@@ -1,9 +1,10 @@
 use crate::batch;
-use crate::decimate::halve;
 use crate::engine::{Engine, Scalar, Vector};
 use crate::ewa::{self, Limits};
 use crate::level::{LARGEST, Level, stride};
-use crate::point::{self, bilinear, nearest};
+use crate::point::{self, Bilinear, Nearest};
+use crate::pyramid::{self, Bytes, Rows};
+use crate::texel::{self, Texel};
 use crate::wrap::Nearer;
 use crate::{
     Footprint, LevelMode, Levels, PixelFilter, Sampler, Simd, TextureError, TextureOptions, Wrap,
@@ -12,13 +13,12 @@ use crate::{
 use alloc::vec::Vec;
 use fearless_simd::dispatch;
 use scumble_geometry::{DVec2, Homography};
-use scumble_pixel::srgb::decode8;
-use scumble_pixel::{ImageView, Premul, WorkingSpace};
+use scumble_pixel::{Image, ImageView, Premul, WorkingSpace};
 
 /// An image made ready to be filtered: its pyramid, premultiplied, in the working space.
 ///
-/// Texels take 16 bytes each (four `f32`), rows are padded by three to eleven of them, and
-/// all levels together take a third more than the base:
+/// Texels take 8 bytes each (four numbers of 16 bits, in steps of 1/16,320), rows are padded by
+/// three to eighteen of them, and all levels together take a third more than the base:
 /// [`Texture::memory_for`] says it before anything is allocated.
 #[derive(Debug, Clone)]
 pub struct Texture {
@@ -47,17 +47,9 @@ impl Texture {
         if Self::memory_for(width, height, options).is_none() {
             return Err(TextureError::TooLarge { width, height });
         }
-        let mut levels = Vec::with_capacity(count(width, height, options.levels));
-        let base = decode(image, options.space)?;
-        levels.push(base);
-        while let Some(last) = levels.last()
-            && levels.len() < count(width, height, options.levels)
-        {
-            let next = halve(last, options.decimation, options.wrap)?;
-            levels.push(next.over([width, height], options.decimation.variance()));
-        }
+        let mut levels = levels(&Bytes::new(image, options.space), options)?;
         let average = match &levels[..] {
-            [.., Level { width: 1, height: 1, texels, .. }] => texels[0],
+            [.., Level { width: 1, height: 1, texels, .. }] => texel::color(texels[0]),
             _ => mean(&levels[0]),
         };
         let TextureOptions { space, wrap, .. } = *options;
@@ -98,14 +90,15 @@ impl Texture {
         self.levels.len()
     }
 
-    /// The texels of a level, premultiplied RGBA in the working space; `None` beyond the last.
+    /// A copy of a level's texels, premultiplied RGBA in the working space; `None` beyond the last.
     ///
     /// Level l is ⌊width/2ˡ⌋ × ⌊height/2ˡ⌋ and at least 1×1. Kaiser levels may overshoot 0…1 by a
     /// few hundredths at sharp edges, as any sharp filter does; samples never do.
     #[must_use]
-    pub fn level(&self, index: usize) -> Option<ImageView<'_, [f32; 4]>> {
+    pub fn level(&self, index: usize) -> Option<Image<[f32; 4]>> {
         let level = self.levels.get(index)?;
-        ImageView::new(level.width, level.height, level.stride, &level.texels).ok()
+        let stored = ImageView::new(level.width, level.height, level.stride, &level.texels).ok()?;
+        Some(stored.to_image().map(|t| texel::color(*t)))
     }
 
     /// Bytes of texels that this texture holds.
@@ -124,7 +117,7 @@ impl Texture {
         let mut bytes = 0usize;
         for l in 0..count(width, height, options.levels) {
             let texels = stride((width >> l).max(1)).checked_mul((height >> l).max(1))?;
-            bytes = bytes.checked_add(texels.checked_mul(size_of::<[f32; 4]>())?)?;
+            bytes = bytes.checked_add(texels.checked_mul(size_of::<Texel>())?)?;
         }
         isize::try_from(bytes).ok().map(isize::unsigned_abs)
     }
@@ -189,8 +182,12 @@ impl Texture {
         out: &mut [Premul],
     ) {
         match s.pixel {
-            PixelFilter::Nearest => return point::fill(self, at, point_mode(s), nearest, out),
-            PixelFilter::Bilinear => return point::fill(self, at, point_mode(s), bilinear, out),
+            PixelFilter::Nearest => {
+                return point::fill(self, engine, at, point_mode(s), Nearest, out);
+            }
+            PixelFilter::Bilinear => {
+                return point::fill(self, engine, at, point_mode(s), Bilinear, out);
+            }
             _ => (),
         }
         let limits = Limits::new(s);
@@ -217,7 +214,6 @@ impl Texture {
         let each = match s.pixel {
             PixelFilter::Nearest => 1,
             PixelFilter::Bilinear => 4,
-            PixelFilter::Separable(kernel) => kernel.texels(),
             _ if extra::takes(s) => return extra::cost(self, &f, s),
             _ => return self.cost_fast(&f, s),
         };
@@ -264,38 +260,44 @@ fn count(width: usize, height: usize, levels: Levels) -> usize {
     }
 }
 
-/// Level 0: bytes to the working space, alpha multiplied in.
-fn decode(image: ImageView<'_, [u8; 4]>, space: WorkingSpace) -> Result<Level, TextureError> {
-    let table: [f32; 256] = core::array::from_fn(|code| match space {
-        WorkingSpace::Srgb => code as f32 / 255.0,
-        WorkingSpace::Linear => decode8(code as u8),
-    });
-    let mut base = Level::new(image.width(), image.height())?;
-    base.fill_rows(
-        0,
-        #[inline(always)]
-        |y, _, out| {
-            for (t, &[r, g, b, a]) in out.iter_mut().zip(image.row(y)) {
-                let alpha = f32::from(a) / 255.0;
-                let [r, g, b] = [r, g, b].map(|v| table[usize::from(v)] * alpha);
-                *t = [r, g, b, alpha];
-            }
-        },
-    );
-    Ok(base)
+/// The image and its pyramid.
+fn levels(image: &impl Rows, options: &TextureOptions) -> Result<Vec<Level>, TextureError> {
+    let TextureOptions { decimation, wrap, .. } = *options;
+    let size = [image.width(), image.height()];
+    let count = count(size[0], size[1], options.levels);
+    let mut levels = Vec::with_capacity(count);
+    for l in 0..count {
+        let level = Level::new((size[0] >> l).max(1), (size[1] >> l).max(1))?;
+        levels.push(level.over(size, decimation.variance()));
+    }
+    let made = match &mut levels[..] {
+        [base, next, ..] if size[1].is_multiple_of(2) => {
+            pyramid::store_and_halve(image, base, next, decimation, wrap);
+            2
+        }
+        [base, ..] => {
+            pyramid::store(image, base);
+            1
+        }
+        [] => 0,
+    };
+    for l in made..count {
+        let (fine, coarse) = levels.split_at_mut(l);
+        pyramid::halve(&fine[l - 1], &mut coarse[0], decimation, wrap);
+    }
+    Ok(levels)
 }
 
-/// The mean texel; equal texels give themselves.
+/// The mean texel.
 fn mean(level: &Level) -> [f32; 4] {
-    let first = level.texels[0];
-    let mut sum = [0.0f64; 4];
+    let mut sum = [0i64; 4];
     for t in (0..level.height).flat_map(|y| level.row(y)) {
-        for c in 0..4 {
-            sum[c] += f64::from(t[c] - first[c]);
+        for (sum, t) in sum.iter_mut().zip(t) {
+            *sum += i64::from(*t);
         }
     }
     let n = level.width as f64 * level.height as f64;
-    core::array::from_fn(|c| first[c] + (sum[c] / n) as f32)
+    sum.map(|sum| (sum as f64 / n) as f32 * texel::STEP)
 }
 
 /// Takes off what a sharp pyramid overshoots: alpha to 0…1, colour to 0…alpha.

@@ -50,8 +50,15 @@ fn every_level_keeps_the_mean() {
                     let options = TextureOptions { decimation, wrap, space, ..Default::default() };
                     let t = Texture::new(noise(w, h, 5).view(), &options).unwrap();
                     for l in 1..t.level_count() {
+                        // Texels are rounded to a step once a level, each way alike.
+                        let level = t.level(l).unwrap();
+                        let texels = (level.width() * level.height()) as f64;
+                        let rounding = 1.5 / 16_320.0 / texels.sqrt();
                         for (a, b) in mean(&t, 0).iter().zip(mean(&t, l)) {
-                            assert!((a - b).abs() < 1e-5, "{w}×{h} {options:?} level {l}: {a} {b}");
+                            assert!(
+                                (a - b).abs() < 1e-5 + rounding,
+                                "{w}×{h} {options:?} level {l}: {a} {b}"
+                            );
                         }
                     }
                 }
@@ -90,7 +97,7 @@ fn the_base_alone_is_the_base_alone() {
     let options = TextureOptions { levels: Levels::BaseOnly, ..Default::default() };
     let t = Texture::new(noise(9, 9, 1).view(), &options).unwrap();
     assert_eq!(t.level_count(), 1);
-    assert_eq!(t.memory(), 9 * (9 + 3) * 16);
+    assert_eq!(t.memory(), 9 * (9 + 3) * 8);
 }
 
 #[test]

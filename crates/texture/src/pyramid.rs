@@ -1,0 +1,277 @@
+//! From an image to its pyramid, rows after rows.
+//!
+//! A row is decoded to floats, filtered along itself to half its length and kept until the rows of the
+//! next level that it has a share in are made: memory is read once and written once. The base is stored
+//! on the way to the first level. Sums are of floats; each texel is rounded once, as it is stored.
+
+use crate::Simd;
+use crate::decimate::Taps;
+use crate::level::Level;
+use crate::texel::{self, ONE, Texel};
+use crate::{Decimation, Wrap};
+use alloc::vec;
+use fearless_simd::dispatch;
+#[cfg(feature = "parallel")]
+use rayon::prelude::*;
+use scumble_pixel::srgb::decode8;
+use scumble_pixel::{ImageView, WorkingSpace};
+
+/// Rows of a level that are made together. Its neighbours' rows that it needs are filtered again.
+const BLOCK: usize = 64;
+
+/// Rows of colours in steps, and where to find them.
+pub(crate) trait Rows: Sync {
+    /// Texels of a row.
+    fn width(&self) -> usize;
+    /// Rows.
+    fn height(&self) -> usize;
+    /// Row `y`, which must exist.
+    fn read(&self, y: usize, out: &mut [[f32; 4]]);
+}
+
+impl Rows for Level {
+    fn width(&self) -> usize {
+        self.width
+    }
+
+    fn height(&self) -> usize {
+        self.height
+    }
+
+    #[inline(always)]
+    fn read(&self, y: usize, out: &mut [[f32; 4]]) {
+        let row = self.row(y).as_flattened();
+        for (out, t) in out.as_flattened_mut().iter_mut().zip(row) {
+            *out = f32::from(*t);
+        }
+    }
+}
+
+/// Straight-alpha, sRGB-encoded bytes, to be brought into a working space.
+pub(crate) struct Bytes<'a> {
+    image: ImageView<'a, [u8; 4]>,
+    /// The steps of each code.
+    table: [f32; 256],
+}
+
+impl<'a> Bytes<'a> {
+    pub(crate) fn new(image: ImageView<'a, [u8; 4]>, space: WorkingSpace) -> Self {
+        let table = core::array::from_fn(|code| match space {
+            WorkingSpace::Srgb => code as f32 * (ONE / 255.0),
+            WorkingSpace::Linear => decode8(code as u8) * ONE,
+        });
+        Self { image, table }
+    }
+}
+
+impl Rows for Bytes<'_> {
+    fn width(&self) -> usize {
+        self.image.width()
+    }
+
+    fn height(&self) -> usize {
+        self.image.height()
+    }
+
+    #[inline(always)]
+    fn read(&self, y: usize, out: &mut [[f32; 4]]) {
+        for (t, &[r, g, b, a]) in out.iter_mut().zip(self.image.row(y)) {
+            let [r, g, b] = [r, g, b].map(|v| self.table[usize::from(v)]);
+            *t = [r, g, b, ONE];
+            if a != 255 {
+                let alpha = f32::from(a) / 255.0;
+                *t = t.map(|v| v * alpha);
+            }
+        }
+    }
+}
+
+/// Stores every row of a source of the level's size.
+pub(crate) fn store(source: &impl Rows, level: &mut Level) {
+    let (width, stride) = (level.width, level.stride);
+    let block = |(i, rows): (usize, &mut [Texel])| {
+        compiled(
+            #[inline(always)]
+            || {
+                let mut line = vec![[0.0; 4]; width];
+                for (y, row) in rows.chunks_exact_mut(stride).enumerate() {
+                    source.read(i * BLOCK + y, &mut line);
+                    put(&line, row);
+                }
+            },
+        );
+    };
+    #[cfg(feature = "parallel")]
+    level.texels.par_chunks_mut(BLOCK * stride).enumerate().for_each(block);
+    #[cfg(not(feature = "parallel"))]
+    block((0, &mut level.texels));
+}
+
+/// Makes the level that follows a source.
+pub(crate) fn halve(source: &impl Rows, to: &mut Level, filter: Decimation, wrap: Wrap) {
+    let halver = Halver::new(source, filter, wrap);
+    let stride = to.stride;
+    let block = |(i, out): (usize, &mut [Texel])| {
+        compiled(
+            #[inline(always)]
+            || halver.run(i * BLOCK, out, stride, |_, _| ()),
+        );
+    };
+    #[cfg(feature = "parallel")]
+    to.texels.par_chunks_mut(BLOCK * stride).enumerate().for_each(block);
+    #[cfg(not(feature = "parallel"))]
+    block((0, &mut to.texels));
+}
+
+/// Stores a source of an even height and makes the level that follows it, in one go.
+pub(crate) fn store_and_halve(
+    source: &impl Rows,
+    base: &mut Level,
+    to: &mut Level,
+    filter: Decimation,
+    wrap: Wrap,
+) {
+    let halver = Halver::new(source, filter, wrap);
+    let (stored, stride) = (base.stride, to.stride);
+    let block = |(i, (base, out)): (usize, (&mut [Texel], &mut [Texel]))| {
+        compiled(
+            #[inline(always)]
+            || {
+                let first = i * BLOCK;
+                halver.run(
+                    first,
+                    out,
+                    stride,
+                    #[inline(always)]
+                    |y, line| {
+                        // Rows of the neighbours are theirs to store.
+                        let start = y.checked_sub(2 * first).map(|y| y * stored);
+                        if let Some(row) = start.and_then(|i| base.get_mut(i..i + stored)) {
+                            put(line, row);
+                        }
+                    },
+                );
+            },
+        );
+    };
+    #[cfg(feature = "parallel")]
+    base.texels
+        .par_chunks_mut(2 * BLOCK * stored)
+        .zip(to.texels.par_chunks_mut(BLOCK * stride))
+        .enumerate()
+        .for_each(block);
+    #[cfg(not(feature = "parallel"))]
+    block((0, (&mut base.texels, &mut to.texels)));
+}
+
+/// Runs a function compiled for the best instructions there are, which changes nothing else.
+#[inline(always)]
+fn compiled(f: impl FnOnce()) {
+    match Simd::best().0 {
+        None => f(),
+        Some(level) => dispatch!(level, _simd => f()),
+    }
+}
+
+/// Rounds a row of colours into the first texels of a stored one.
+#[inline(always)]
+fn put(line: &[[f32; 4]], row: &mut [Texel]) {
+    let row = row.as_flattened_mut();
+    for (t, v) in row.iter_mut().zip(line.as_flattened()) {
+        *t = texel::round(*v);
+    }
+}
+
+/// The filters from a source to the next level.
+struct Halver<'a, R> {
+    source: &'a R,
+    columns: Taps,
+    rows: Taps,
+}
+
+impl<'a, R: Rows> Halver<'a, R> {
+    fn new(source: &'a R, filter: Decimation, wrap: Wrap) -> Self {
+        let columns = Taps::new(source.width(), filter, wrap);
+        let rows = Taps::new(source.height(), filter, wrap);
+        Self { source, columns, rows }
+    }
+
+    /// Rows of the next level from `first` on. `seen` gets every row of the source that is read, some
+    /// of them twice.
+    #[inline(always)]
+    fn run(
+        &self,
+        first: usize,
+        out: &mut [Texel],
+        stride: usize,
+        mut seen: impl FnMut(usize, &[[f32; 4]]),
+    ) {
+        let (columns, rows) = (&self.columns, &self.rows);
+        let [left, right] = columns.margins();
+        let width = self.source.width();
+        let mut line = vec![[0.0; 4]; left + width + right];
+        // The last rows of the source, filtered along themselves: row i in place i mod their number.
+        let mut kept = vec![vec![[0.0; 4]; columns.outputs]; rows.count];
+        let mut result = vec![[0.0; 4]; columns.outputs];
+        let mut next = i32::MIN;
+        for (i, out) in out.chunks_exact_mut(stride).enumerate() {
+            let from = rows.firsts[first + i];
+            for j in from.max(next)..from + rows.count as i32 {
+                let y = rows.resolve(j);
+                self.source.read(y, &mut line[left..left + width]);
+                seen(y, &line[left..left + width]);
+                for k in (0..left).chain(left + width..left + width + right) {
+                    line[k] = line[left + columns.resolve(k as i32 - left as i32)];
+                }
+                filter_along(columns, left, &line, &mut kept[place(j, rows.count)]);
+            }
+            next = from + rows.count as i32;
+            let taps = (from..).map(|j| &kept[place(j, rows.count)][..]);
+            filter_across(rows.weights(first + i), taps, &mut result);
+            put(&result, out);
+        }
+    }
+}
+
+/// Where row `j` is kept.
+#[inline(always)]
+fn place(j: i32, count: usize) -> usize {
+    j.rem_euclid(count as i32) as usize
+}
+
+/// Σ wₖ·tₖ along a row that begins with `left` texels of its margin.
+#[inline(always)]
+fn filter_along(taps: &Taps, left: usize, line: &[[f32; 4]], out: &mut [[f32; 4]]) {
+    for (i, out) in out.iter_mut().enumerate() {
+        let first = (taps.firsts[i] + left as i32) as usize;
+        let run = &line[first..first + taps.count];
+        *out = sum(taps.weights(i), run);
+    }
+}
+
+#[inline(always)]
+fn sum(weights: &[f32], run: &[[f32; 4]]) -> [f32; 4] {
+    let mut sum = [0.0; 4];
+    for (w, t) in weights.iter().zip(run) {
+        for (sum, t) in sum.iter_mut().zip(t) {
+            *sum += w * t;
+        }
+    }
+    sum
+}
+
+/// Σ wₖ·tₖ of whole rows.
+#[inline(always)]
+fn filter_across<'a>(
+    weights: &[f32],
+    rows: impl Iterator<Item = &'a [[f32; 4]]>,
+    out: &mut [[f32; 4]],
+) {
+    out.fill([0.0; 4]);
+    let out = out.as_flattened_mut();
+    for (w, row) in weights.iter().zip(rows) {
+        for (out, t) in out.iter_mut().zip(row.as_flattened()) {
+            *out += w * t;
+        }
+    }
+}
