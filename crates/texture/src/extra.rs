@@ -82,7 +82,7 @@ impl Area {
         let mut near = [0.0f32; BATCH];
         if s.magnify.is_apart() && !matches!(self, Self::Separable(_)) {
             for (near, f) in near.iter_mut().zip(footprints) {
-                *near = s.magnify.nearness(f.major_squared());
+                *near = s.magnify.nearness(t.nearer(f).major_squared());
             }
         }
         let near = &near[..out.len()];

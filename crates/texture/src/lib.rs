@@ -84,6 +84,7 @@ mod error;
 mod ewa;
 mod extra;
 mod footprint;
+mod format;
 mod gaussian;
 mod kernel;
 mod level;
@@ -111,6 +112,7 @@ mod wrap;
 
 pub use error::TextureError;
 pub use footprint::Footprint;
+pub use format::{Alpha, Channel, Channels, PremultipliedAlpha, StraightAlpha, Texels};
 pub use kernel::{Kernel, RadialFilter};
 pub use magnify::Magnify;
 pub use options::{Decimation, Levels, TextureOptions};

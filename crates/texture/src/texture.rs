@@ -1,6 +1,7 @@
 use crate::batch;
 use crate::engine::{Engine, Scalar, Vector};
 use crate::ewa::{self, Limits};
+use crate::format::{Alpha, Channels, Imported, Texels};
 use crate::level::{LARGEST, Level, stride};
 use crate::point::{self, Bilinear, Nearest};
 use crate::pyramid::{self, Bytes, Rows};
@@ -11,8 +12,9 @@ use crate::{
     extra, lod,
 };
 use alloc::vec::Vec;
+use core::ops::Range;
 use fearless_simd::dispatch;
-use scumble_geometry::{DVec2, Homography};
+use scumble_geometry::{DVec2, Homography, Matrix2};
 use scumble_pixel::{Image, ImageView, Premul, WorkingSpace};
 
 /// An image made ready to be filtered: its pyramid, premultiplied, in the working space.
@@ -22,7 +24,12 @@ use scumble_pixel::{Image, ImageView, Premul, WorkingSpace};
 /// [`Texture::memory_for`] says it before anything is allocated.
 #[derive(Debug, Clone)]
 pub struct Texture {
+    /// Those that are kept.
     pub(crate) levels: Vec<Level>,
+    /// Columns and rows of the image.
+    size: [usize; 2],
+    /// From texels of the image to texels of the first level that is kept.
+    scale: [f64; 2],
     pub(crate) wrap: Wrap,
     space: WorkingSpace,
     average: [f32; 4],
@@ -40,24 +47,83 @@ impl Texture {
         image: ImageView<'_, [u8; 4]>,
         options: &TextureOptions,
     ) -> Result<Self, TextureError> {
-        let (width, height) = (image.width(), image.height());
+        let size = [image.width(), image.height()];
+        Self::check(size, options)?;
+        Self::over(levels(&Bytes::new(image, options.space), options)?, size, options)
+    }
+
+    /// A texture from an image in any of the formats that there are.
+    ///
+    /// # Errors
+    /// As for [`Texture::new`].
+    pub fn from_texels<P: Channels, A: Alpha>(
+        texels: &Texels<'_, P, A>,
+        options: &TextureOptions,
+    ) -> Result<Self, TextureError> {
+        Self::check(texels.size(), options)?;
+        let rows = Imported { texels, space: options.space };
+        Self::over(levels(&rows, options)?, texels.size(), options)
+    }
+
+    /// A texture whose every level is one colour, red, yellow, green, cyan, blue, magenta, white and
+    /// black in turn: it shows which level is read where, and a filter that reads one level over a
+    /// footprint gives one colour.
+    ///
+    /// # Errors
+    /// As for [`Texture::new`].
+    pub fn colored_levels(
+        width: usize,
+        height: usize,
+        options: &TextureOptions,
+    ) -> Result<Self, TextureError> {
+        Self::check([width, height], options)?;
+        let mut levels = pyramid_of(width, height, options)?;
+        for (l, level) in levels.iter_mut().enumerate() {
+            let [r, g, b] = LEVEL_COLORS[l % LEVEL_COLORS.len()];
+            level.texels.fill(texel::of_color([r, g, b, 1.0]));
+        }
+        Self::over(levels, [width, height], options)
+    }
+
+    /// Whether a texture of this size can be made.
+    fn check([width, height]: [usize; 2], options: &TextureOptions) -> Result<(), TextureError> {
         if width == 0 || height == 0 {
             return Err(TextureError::Empty);
         }
-        if Self::memory_for(width, height, options).is_none() {
-            return Err(TextureError::TooLarge { width, height });
+        match Self::memory_for(width, height, options) {
+            Some(_) => Ok(()),
+            None => Err(TextureError::TooLarge { width, height }),
         }
-        let mut levels = levels(&Bytes::new(image, options.space), options)?;
+    }
+
+    /// The texture of all levels from the image on, of which it keeps those that are asked for.
+    fn over(
+        levels: Vec<Level>,
+        size: [usize; 2],
+        options: &TextureOptions,
+    ) -> Result<Self, TextureError> {
+        let first = kept(size[0], size[1], options.levels).start;
+        let TextureOptions { space, wrap, decimation, .. } = *options;
+        let mut levels: Vec<Level> = match levels.get(first) {
+            Some(base) if first > 0 => {
+                let base = [base.width, base.height];
+                let rest = levels.into_iter().skip(first);
+                rest.map(|l| l.over(base, decimation.variance())).collect()
+            }
+            _ => levels,
+        };
         let average = match &levels[..] {
             [.., Level { width: 1, height: 1, texels, .. }] => texel::color(texels[0]),
-            _ => mean(&levels[0]),
+            [base, ..] => mean(base),
+            [] => return Err(TextureError::Empty),
         };
-        let TextureOptions { space, wrap, .. } = *options;
         if wrap == Wrap::Repeat {
             levels.iter_mut().for_each(Level::make_tile);
         }
+        let [width, height] = [levels[0].width, levels[0].height];
         let nearer = [Nearer::new(wrap, width), Nearer::new(wrap, height)];
-        Ok(Self { levels, wrap, space, average, nearer, simd: Simd::best() })
+        let scale = [width as f64 / size[0] as f64, height as f64 / size[1] as f64];
+        Ok(Self { levels, size, scale, wrap, space, average, nearer, simd: Simd::best() })
     }
 
     /// The same texture, sampled with other instructions and the same results.
@@ -66,16 +132,16 @@ impl Texture {
         Self { simd, ..self }
     }
 
-    /// Columns of level 0.
+    /// Columns of the image, level 0.
     #[must_use]
     pub fn width(&self) -> usize {
-        self.levels[0].width
+        self.size[0]
     }
 
-    /// Rows of level 0.
+    /// Rows of the image, level 0.
     #[must_use]
     pub fn height(&self) -> usize {
-        self.levels[0].height
+        self.size[1]
     }
 
     /// The space that the texels are in, and the samples.
@@ -84,15 +150,16 @@ impl Texture {
         self.space
     }
 
-    /// Levels, the image itself included; at least 1.
+    /// Levels that are kept, the image itself included if it is; at least 1.
     #[must_use]
     pub fn level_count(&self) -> usize {
         self.levels.len()
     }
 
-    /// A copy of a level's texels, premultiplied RGBA in the working space; `None` beyond the last.
+    /// A copy of the texels of a level, premultiplied RGBA in the working space, counted from the first
+    /// that is kept; `None` beyond the last.
     ///
-    /// Level l is ⌊width/2ˡ⌋ × ⌊height/2ˡ⌋ and at least 1×1. Kaiser levels may overshoot 0…1 by a
+    /// Of the whole pyramid level l is ⌊width/2ˡ⌋ × ⌊height/2ˡ⌋ and at least 1×1. Kaiser levels may overshoot 0…1 by a
     /// few hundredths at sharp edges, as any sharp filter does; samples never do.
     #[must_use]
     pub fn level(&self, index: usize) -> Option<Image<[f32; 4]>> {
@@ -115,7 +182,7 @@ impl Texture {
             return None;
         }
         let mut bytes = 0usize;
-        for l in 0..count(width, height, options.levels) {
+        for l in kept(width, height, options.levels) {
             let texels = stride((width >> l).max(1)).checked_mul((height >> l).max(1))?;
             bytes = bytes.checked_add(texels.checked_mul(size_of::<Texel>())?)?;
         }
@@ -228,9 +295,25 @@ impl Texture {
         if f.is_bounded() { ewa::cost(self, f, s.level, &Limits::new(s)) } else { 0 }
     }
 
-    /// The footprint with its centre brought near.
+    /// A place in texels of the image, in texels of the first level that is kept.
+    pub(crate) fn in_base(&self, p: DVec2) -> DVec2 {
+        let [su, sv] = self.scale;
+        DVec2::new(p.x * su, p.y * sv)
+    }
+
+    /// The footprint in texels of the first level that is kept, which is what all filters below this
+    /// call level 0, with its centre brought near.
     #[inline(always)]
     pub(crate) fn nearer(&self, f: &Footprint) -> Footprint {
+        let [su, sv] = self.scale;
+        let Matrix2 { a, b, c, d } = f.jacobian;
+        let jacobian = Matrix2::new(a * su, b * su, c * sv, d * sv);
+        self.brought(&Footprint { u: f.u * su, v: f.v * sv, jacobian })
+    }
+
+    /// The footprint, which is in texels of the first level that is kept, with its centre brought near.
+    #[inline(always)]
+    pub(crate) fn brought(&self, f: &Footprint) -> Footprint {
         let [u, v] = &self.nearer;
         // A centre that is not finite stays so: ∞ − ∞ and 0·∞ are NaN, and NaN survives the sum.
         let lost = 0.0 * f.u + 0.0 * f.v;
@@ -252,26 +335,39 @@ pub(crate) fn point_mode(s: &Sampler) -> LevelMode {
     }
 }
 
-/// Levels of a pyramid over an image of this size.
-fn count(width: usize, height: usize, levels: Levels) -> usize {
+/// The levels to keep of a pyramid over an image of this size; at least one.
+fn kept(width: usize, height: usize, levels: Levels) -> Range<usize> {
+    let all = width.max(height).checked_ilog2().map_or(0, |l| l as usize + 1);
     match levels {
-        Levels::All => width.max(height).checked_ilog2().map_or(0, |l| l as usize + 1),
-        Levels::BaseOnly => 1,
+        Levels::All => 0..all,
+        Levels::BaseOnly => 0..all.min(1),
+        Levels::Range { first, last } => {
+            let first = first.min(all.saturating_sub(1));
+            first..last.saturating_add(1).clamp(first + 1, all.max(first + 1))
+        }
     }
 }
 
-/// The image and its pyramid.
+/// Empty levels, from the image's size to the last that is kept.
+fn pyramid_of(
+    width: usize,
+    height: usize,
+    options: &TextureOptions,
+) -> Result<Vec<Level>, TextureError> {
+    let level = |l: usize| {
+        let level = Level::new((width >> l).max(1), (height >> l).max(1))?;
+        Ok(level.over([width, height], options.decimation.variance()))
+    };
+    (0..kept(width, height, options.levels).end).map(level).collect()
+}
+
+/// The image and its pyramid, to the last level that is kept.
 fn levels(image: &impl Rows, options: &TextureOptions) -> Result<Vec<Level>, TextureError> {
     let TextureOptions { decimation, wrap, .. } = *options;
-    let size = [image.width(), image.height()];
-    let count = count(size[0], size[1], options.levels);
-    let mut levels = Vec::with_capacity(count);
-    for l in 0..count {
-        let level = Level::new((size[0] >> l).max(1), (size[1] >> l).max(1))?;
-        levels.push(level.over(size, decimation.variance()));
-    }
+    let (width, height) = (image.width(), image.height());
+    let mut levels = pyramid_of(width, height, options)?;
     let made = match &mut levels[..] {
-        [base, next, ..] if size[1].is_multiple_of(2) => {
+        [base, next, ..] if height.is_multiple_of(2) => {
             pyramid::store_and_halve(image, base, next, decimation, wrap);
             2
         }
@@ -281,12 +377,24 @@ fn levels(image: &impl Rows, options: &TextureOptions) -> Result<Vec<Level>, Tex
         }
         [] => 0,
     };
-    for l in made..count {
+    for l in made..levels.len() {
         let (fine, coarse) = levels.split_at_mut(l);
         pyramid::halve(&fine[l - 1], &mut coarse[0], decimation, wrap);
     }
     Ok(levels)
 }
+
+/// The colours of [`Texture::colored_levels`].
+const LEVEL_COLORS: [[f32; 3]; 8] = [
+    [1.0, 0.0, 0.0],
+    [1.0, 1.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 1.0, 1.0],
+    [0.0, 0.0, 1.0],
+    [1.0, 0.0, 1.0],
+    [1.0, 1.0, 1.0],
+    [0.0, 0.0, 0.0],
+];
 
 /// The mean texel.
 fn mean(level: &Level) -> [f32; 4] {

@@ -24,7 +24,11 @@ fn wraps() -> impl Strategy<Value = Wrap> {
 fn options() -> impl Strategy<Value = TextureOptions> {
     let space = prop_oneof![Just(WorkingSpace::Srgb), Just(WorkingSpace::Linear)];
     let decimation = prop_oneof![Just(Decimation::Kaiser), Just(Decimation::Box)];
-    let levels = prop_oneof![4 => Just(Levels::All), 1 => Just(Levels::BaseOnly)];
+    let levels = prop_oneof![
+        4 => Just(Levels::All),
+        1 => Just(Levels::BaseOnly),
+        1 => (0usize..7, 0usize..7).prop_map(|(first, last)| Levels::Range { first, last }),
+    ];
     (space, wraps(), decimation, levels).prop_map(|(space, wrap, decimation, levels)| {
         TextureOptions { space, wrap, decimation, levels }
     })
