@@ -70,6 +70,8 @@
 //! - `libm`: floating point without the standard library; the crate is `no_std` with `alloc` then, and
 //!   gives the same bits by the instructions that it is compiled for.
 //! - `parallel`: builds pyramids on several threads, with the same bits.
+//! - `image`: textures from the crate `image`'s decoded images.
+//! - `glam`: footprints from its vectors and matrices.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 extern crate alloc;
@@ -86,12 +88,15 @@ mod extra;
 mod footprint;
 mod format;
 mod gaussian;
+#[cfg(any(feature = "glam", feature = "image"))]
+mod interop;
 mod kernel;
 mod level;
 mod lod;
 mod magnify;
 mod math;
 mod mixture;
+mod names;
 mod options;
 mod place;
 mod point;
@@ -115,6 +120,7 @@ pub use footprint::Footprint;
 pub use format::{Alpha, Channel, Channels, PremultipliedAlpha, StraightAlpha, Texels};
 pub use kernel::{Kernel, RadialFilter};
 pub use magnify::Magnify;
+pub use names::UnknownName;
 pub use options::{Decimation, Levels, TextureOptions};
 pub use probes::Probes;
 pub use sampler::{LevelMode, PixelFilter, Sampler};
