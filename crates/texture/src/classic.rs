@@ -140,9 +140,11 @@ struct Walk {
 impl Walk {
     fn new(f: &Footprint, shape: &Shape, [su, sv]: [f64; 2], radius: f64) -> Self {
         let (mut uu, mut uv, mut vv) = (shape.uu * su * su, shape.uv * su * sv, shape.vv * sv * sv);
-        let area = 4.0 * radius * radius * sqrt(uu * vv);
+        let side = |variance: f64| 2.0 * radius * sqrt(variance) + 1.0;
+        let area = side(uu) * side(vv);
         if area > MOST {
-            let k = MOST / area;
+            // One side may be all of it, so both give way by the whole.
+            let k = (MOST / area) * (MOST / area);
             (uu, uv, vv) = (uu * k, uv * k, vv * k);
         }
         // A level that is much smaller along one axis only may flatten the ellipse.
