@@ -58,6 +58,7 @@ struct Walks {
     row_scale: [f32; BATCH],
     run_scale: [f32; BATCH],
     inside: [i32; BATCH],
+    small: [i32; BATCH],
     /// 1 where the ellipse needs mending, else 0.
     rare: [i32; BATCH],
 }
@@ -193,6 +194,7 @@ impl Walks {
             o.row_scale[i] = w.row_scale;
             o.run_scale[i] = w.run_scale;
             o.inside[i] = w.inside;
+            o.small[i] = w.small;
             o.rare[i] = i32::from(sigma.needs_mending(frame, limits));
         }
         o
@@ -214,5 +216,6 @@ impl Walks {
         w.run_scale = self.run_scale[i];
         w.cut = limits.cut;
         w.inside = self.inside[i];
+        w.small = self.small[i];
     }
 }
