@@ -40,6 +40,28 @@ impl Texture {
         image: ImageView<'_, [u8; 4]>,
         options: &TextureOptions,
     ) -> Result<Self, TextureError> {
+        Self::make(image, options, Vec::new())
+    }
+
+    /// The texture of another image, like [`Texture::new`], in the memory of this one where its levels
+    /// have the same sizes: for the frames of a film. Fresh memory costs about as much as the pyramid.
+    ///
+    /// # Errors
+    /// As for [`Texture::new`].
+    pub fn renewed(
+        self,
+        image: ImageView<'_, [u8; 4]>,
+        options: &TextureOptions,
+    ) -> Result<Self, TextureError> {
+        let simd = self.simd;
+        Ok(Self::make(image, options, self.levels)?.with_simd(simd))
+    }
+
+    fn make(
+        image: ImageView<'_, [u8; 4]>,
+        options: &TextureOptions,
+        old: Vec<Level>,
+    ) -> Result<Self, TextureError> {
         let (width, height) = (image.width(), image.height());
         if width == 0 || height == 0 {
             return Err(TextureError::Empty);
@@ -47,7 +69,7 @@ impl Texture {
         if Self::memory_for(width, height, options).is_none() {
             return Err(TextureError::TooLarge { width, height });
         }
-        let mut levels = levels(&Bytes::new(image, options.space), options)?;
+        let mut levels = levels(&Bytes::new(image, options.space), options, old)?;
         let average = match &levels[..] {
             [.., Level { width: 1, height: 1, texels, .. }] => texel::color(texels[0]),
             _ => mean(&levels[0]),
@@ -241,14 +263,20 @@ fn count(width: usize, height: usize, levels: Levels) -> usize {
     }
 }
 
-/// The image and its pyramid.
-fn levels(image: &impl Rows, options: &TextureOptions) -> Result<Vec<Level>, TextureError> {
+/// The image and its pyramid, in the memory of others.
+fn levels(
+    image: &impl Rows,
+    options: &TextureOptions,
+    old: Vec<Level>,
+) -> Result<Vec<Level>, TextureError> {
     let TextureOptions { decimation, wrap, .. } = *options;
     let size = [image.width(), image.height()];
     let count = count(size[0], size[1], options.levels);
     let mut levels = Vec::with_capacity(count);
+    let mut old = old.into_iter().map(|level| level.texels);
     for l in 0..count {
-        let level = Level::new((size[0] >> l).max(1), (size[1] >> l).max(1))?;
+        let old = old.next().unwrap_or_default();
+        let level = Level::new((size[0] >> l).max(1), (size[1] >> l).max(1), old)?;
         levels.push(level.over(size, decimation.variance()));
     }
     let made = match &mut levels[..] {
