@@ -80,6 +80,12 @@ impl Taps {
         &self.weights[i * self.count..(i + 1) * self.count]
     }
 
+    /// Whether all outputs have the weights of the first, each two texels on.
+    #[inline(always)]
+    pub(crate) fn is_even(&self) -> bool {
+        self.inputs.is_multiple_of(2)
+    }
+
     /// The input texel that stands at `i`, which may lie outside.
     #[inline(always)]
     pub(crate) fn resolve(&self, i: i32) -> usize {

@@ -53,18 +53,23 @@ pub(crate) fn stride(width: usize) -> usize {
 }
 
 impl Level {
-    /// A level of nothing, to be filled.
-    pub(crate) fn new(width: usize, height: usize) -> Result<Self, TextureError> {
+    /// A level of no meaning, to be filled, in the memory of another if that is of its size.
+    pub(crate) fn new(width: usize, height: usize, old: Vec<Texel>) -> Result<Self, TextureError> {
         let stride = stride(width);
         let len = stride.checked_mul(height).ok_or(TextureError::TooLarge { width, height })?;
         let bytes =
             len.checked_mul(size_of::<Texel>()).ok_or(TextureError::TooLarge { width, height })?;
-        // Asked for first, so that a refusal is an error; then had zeroed from the system, which
-        // costs nothing until it is written.
-        let mut asked = Vec::<Texel>::new();
-        asked.try_reserve_exact(len).map_err(|_| TextureError::OutOfMemory { bytes })?;
-        drop(asked);
-        let texels = vec![[0; 4]; len];
+        let texels = if old.len() == len {
+            old
+        } else {
+            drop(old);
+            // Asked for first, so that a refusal is an error; then had zeroed from the system, which
+            // costs nothing until it is written.
+            let mut asked = Vec::<Texel>::new();
+            asked.try_reserve_exact(len).map_err(|_| TextureError::OutOfMemory { bytes })?;
+            drop(asked);
+            vec![[0; 4]; len]
+        };
         let most = [width, height].map(|n| if n == 1 { 2.5 } else { f64::INFINITY });
         let size = if len < SHORT { [width as f64, height as f64] } else { [0.0; 2] };
         let frame = Frame { scale: [1.0; 2], blurred: [0.0; 2], most, low: 0.0, size };

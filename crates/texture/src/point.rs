@@ -195,18 +195,18 @@ impl<const N: usize> Places<N> {
         let blends = mode == LevelMode::Linear;
         let mut places =
             Self { u: [0.0; N], v: [0.0; N], level: [0; N], coarser: [0.0; N], blends };
-        let mut step = [0.0; N];
-        for i in 0..N {
+        let mut steps = [0.0; N];
+        for (i, step) in steps.iter_mut().enumerate() {
             let f = t.nearer(&at(i));
             places.u[i] = f.u;
             places.v[i] = f.v;
-            step[i] = f.longest_step_squared();
+            *step = f.longest_step_squared();
         }
         // A loop for each mode: in one for all, every place would pay for the dearest.
         let mut pick = |mode| {
-            for i in 0..N {
-                let detail = if mode == LevelMode::Linear { lod::detail(step[i]) } else { 0.0 };
-                let Pick { level, coarser } = lod::pick(step[i], detail, mode, last);
+            for (i, step) in steps.iter().enumerate() {
+                let detail = if mode == LevelMode::Linear { lod::detail(*step) } else { 0.0 };
+                let Pick { level, coarser } = lod::pick(*step, detail, mode, last);
                 places.level[i] = level as u32;
                 places.coarser[i] = coarser;
             }

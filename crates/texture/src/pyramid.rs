@@ -50,16 +50,16 @@ impl Rows for Level {
 /// Straight-alpha, sRGB-encoded bytes, to be brought into a working space.
 pub(crate) struct Bytes<'a> {
     image: ImageView<'a, [u8; 4]>,
-    /// The steps of each code.
-    table: [f32; 256],
+    /// The steps of each code in linear light, if that is the space.
+    table: Option<[f32; 256]>,
 }
 
 impl<'a> Bytes<'a> {
     pub(crate) fn new(image: ImageView<'a, [u8; 4]>, space: WorkingSpace) -> Self {
-        let table = core::array::from_fn(|code| match space {
-            WorkingSpace::Srgb => code as f32 * (ONE / 255.0),
-            WorkingSpace::Linear => decode8(code as u8) * ONE,
-        });
+        let table = match space {
+            WorkingSpace::Srgb => None,
+            WorkingSpace::Linear => Some(core::array::from_fn(|code| decode8(code as u8) * ONE)),
+        };
         Self { image, table }
     }
 }
@@ -75,12 +75,20 @@ impl Rows for Bytes<'_> {
 
     #[inline(always)]
     fn read(&self, y: usize, out: &mut [[f32; 4]]) {
-        for (t, &[r, g, b, a]) in out.iter_mut().zip(self.image.row(y)) {
-            let [r, g, b] = [r, g, b].map(|v| self.table[usize::from(v)]);
-            *t = [r, g, b, ONE];
-            if a != 255 {
-                let alpha = f32::from(a) / 255.0;
-                *t = t.map(|v| v * alpha);
+        let row = self.image.row(y);
+        match &self.table {
+            None => {
+                for (t, &[r, g, b, a]) in out.iter_mut().zip(row) {
+                    let alpha = f32::from(a) * (ONE / (255.0 * 255.0));
+                    *t = [r, g, b, 255].map(|v| f32::from(v) * alpha);
+                }
+            }
+            Some(table) => {
+                for (t, &[r, g, b, a]) in out.iter_mut().zip(row) {
+                    let alpha = f32::from(a) * (1.0 / 255.0);
+                    let [r, g, b] = [r, g, b].map(|v| table[usize::from(v)]);
+                    *t = [r * alpha, g * alpha, b * alpha, ONE * alpha];
+                }
             }
         }
     }
@@ -223,12 +231,20 @@ impl<'a, R: Rows> Halver<'a, R> {
                 for k in (0..left).chain(left + width..left + width + right) {
                     line[k] = line[left + columns.resolve(k as i32 - left as i32)];
                 }
-                filter_along(columns, left, &line, &mut kept[place(j, rows.count)]);
+                along(columns, left, &line, &mut kept[place(j, rows.count)]);
             }
             next = from + rows.count as i32;
-            let taps = (from..).map(|j| &kept[place(j, rows.count)][..]);
-            filter_across(rows.weights(first + i), taps, &mut result);
-            put(&result, out);
+            let row = |k: usize| &kept[place(from + k as i32, rows.count)][..];
+            let weights = rows.weights(first + i);
+            let out = &mut out[..columns.outputs];
+            if let Ok(weights) = weights.try_into() {
+                across::<8>(weights, row, out);
+            } else if let Ok(weights) = weights.try_into() {
+                across::<2>(weights, row, out);
+            } else {
+                across_any(weights, row, &mut result);
+                put(&result, out);
+            }
         }
     }
 }
@@ -241,36 +257,87 @@ fn place(j: i32, count: usize) -> usize {
 
 /// Σ wₖ·tₖ along a row that begins with `left` texels of its margin.
 #[inline(always)]
-fn filter_along(taps: &Taps, left: usize, line: &[[f32; 4]], out: &mut [[f32; 4]]) {
-    for (i, out) in out.iter_mut().enumerate() {
-        let first = (taps.firsts[i] + left as i32) as usize;
-        let run = &line[first..first + taps.count];
-        *out = sum(taps.weights(i), run);
-    }
-}
-
-#[inline(always)]
-fn sum(weights: &[f32], run: &[[f32; 4]]) -> [f32; 4] {
-    let mut sum = [0.0; 4];
-    for (w, t) in weights.iter().zip(run) {
-        for (sum, t) in sum.iter_mut().zip(t) {
-            *sum += w * t;
+fn along(taps: &Taps, left: usize, line: &[[f32; 4]], out: &mut [[f32; 4]]) {
+    if taps.is_even() {
+        // One set of weights, two texels from output to output, beginning with the margin.
+        let weights = taps.weights(0);
+        if let Ok(weights) = weights.try_into() {
+            return along_pairs::<4>(pairs::<8, 4>(weights), line, out);
+        }
+        if let Ok(weights) = weights.try_into() {
+            return along_pairs::<1>(pairs::<2, 1>(weights), line, out);
         }
     }
-    sum
+    for (i, out) in out.iter_mut().enumerate() {
+        let first = (taps.firsts[i] + left as i32) as usize;
+        *out = [0.0; 4];
+        for (w, t) in taps.weights(i).iter().zip(&line[first..first + taps.count]) {
+            for (out, t) in out.iter_mut().zip(t) {
+                *out += w * t;
+            }
+        }
+    }
 }
 
-/// Σ wₖ·tₖ of whole rows.
+/// The weights of pairs of texels, each four times.
 #[inline(always)]
-fn filter_across<'a>(
-    weights: &[f32],
-    rows: impl Iterator<Item = &'a [[f32; 4]]>,
+fn pairs<const N: usize, const PAIRS: usize>(weights: &[f32; N]) -> [[f32; 8]; PAIRS] {
+    let mut pairs = [[0.0; 8]; PAIRS];
+    for (k, weight) in pairs.as_flattened_mut().iter_mut().enumerate() {
+        *weight = weights[k / 4];
+    }
+    pairs
+}
+
+/// Two texels at a time: the odd and the even ones are summed apart.
+#[inline(always)]
+fn along_pairs<const PAIRS: usize>(
+    weights: [[f32; 8]; PAIRS],
+    line: &[[f32; 4]],
     out: &mut [[f32; 4]],
 ) {
+    let (line, _) = line.as_chunks::<2>();
+    for (out, run) in out.iter_mut().zip(line.windows(PAIRS)) {
+        let mut sum = [0.0; 8];
+        for (w, pair) in weights.iter().zip(run) {
+            for ((sum, w), t) in sum.iter_mut().zip(w).zip(pair.as_flattened()) {
+                *sum += w * t;
+            }
+        }
+        for c in 0..4 {
+            out[c] = sum[c] + sum[c + 4];
+        }
+    }
+}
+
+/// Σ wₖ·tₖ of whole rows, rounded.
+#[inline(always)]
+fn across<'a, const N: usize>(
+    weights: &[f32; N],
+    row: impl Fn(usize) -> &'a [[f32; 4]],
+    out: &mut [Texel],
+) {
+    let out = out.as_flattened_mut();
+    let mut rows = [&[][..]; N];
+    for (k, each) in rows.iter_mut().enumerate() {
+        *each = &row(k).as_flattened()[..out.len()];
+    }
+    for (x, out) in out.iter_mut().enumerate() {
+        let mut sum = 0.0;
+        for k in 0..N {
+            sum += weights[k] * rows[k][x];
+        }
+        *out = texel::round(sum);
+    }
+}
+
+/// The same for any number of rows, not rounded.
+#[inline(always)]
+fn across_any<'a>(weights: &[f32], row: impl Fn(usize) -> &'a [[f32; 4]], out: &mut [[f32; 4]]) {
     out.fill([0.0; 4]);
     let out = out.as_flattened_mut();
-    for (w, row) in weights.iter().zip(rows) {
-        for (out, t) in out.iter_mut().zip(row.as_flattened()) {
+    for (k, w) in weights.iter().enumerate() {
+        for (out, t) in out.iter_mut().zip(row(k).as_flattened()) {
             *out += w * t;
         }
     }

@@ -47,9 +47,31 @@ impl Texture {
         image: ImageView<'_, [u8; 4]>,
         options: &TextureOptions,
     ) -> Result<Self, TextureError> {
+        Self::make(image, options, Vec::new())
+    }
+
+    /// The texture of another image, like [`Texture::new`], in the memory of this one where its levels
+    /// have the same sizes: for the frames of a film. Fresh memory costs about as much as the pyramid.
+    ///
+    /// # Errors
+    /// As for [`Texture::new`].
+    pub fn renewed(
+        self,
+        image: ImageView<'_, [u8; 4]>,
+        options: &TextureOptions,
+    ) -> Result<Self, TextureError> {
+        let simd = self.simd;
+        Ok(Self::make(image, options, self.levels)?.with_simd(simd))
+    }
+
+    fn make(
+        image: ImageView<'_, [u8; 4]>,
+        options: &TextureOptions,
+        old: Vec<Level>,
+    ) -> Result<Self, TextureError> {
         let size = [image.width(), image.height()];
         Self::check(size, options)?;
-        Self::over(levels(&Bytes::new(image, options.space), options)?, size, options)
+        Self::over(levels(&Bytes::new(image, options.space), options, old)?, size, options)
     }
 
     /// A texture from an image in any of the formats that there are.
@@ -62,7 +84,7 @@ impl Texture {
     ) -> Result<Self, TextureError> {
         Self::check(texels.size(), options)?;
         let rows = Imported { texels, space: options.space };
-        Self::over(levels(&rows, options)?, texels.size(), options)
+        Self::over(levels(&rows, options, Vec::new())?, texels.size(), options)
     }
 
     /// A texture whose every level is one colour, red, yellow, green, cyan, blue, magenta, white and
@@ -77,7 +99,7 @@ impl Texture {
         options: &TextureOptions,
     ) -> Result<Self, TextureError> {
         Self::check([width, height], options)?;
-        let mut levels = pyramid_of(width, height, options)?;
+        let mut levels = pyramid_of(width, height, options, Vec::new())?;
         for (l, level) in levels.iter_mut().enumerate() {
             let [r, g, b] = LEVEL_COLORS[l % LEVEL_COLORS.len()];
             level.texels.fill(texel::of_color([r, g, b, 1.0]));
@@ -348,24 +370,31 @@ fn kept(width: usize, height: usize, levels: Levels) -> Range<usize> {
     }
 }
 
-/// Empty levels, from the image's size to the last that is kept.
+/// Levels to be filled, from the image's size to the last that is kept, in the memory of others.
 fn pyramid_of(
     width: usize,
     height: usize,
     options: &TextureOptions,
+    old: Vec<Level>,
 ) -> Result<Vec<Level>, TextureError> {
+    let mut old = old.into_iter().map(|level| level.texels);
     let level = |l: usize| {
-        let level = Level::new((width >> l).max(1), (height >> l).max(1))?;
+        let old = old.next().unwrap_or_default();
+        let level = Level::new((width >> l).max(1), (height >> l).max(1), old)?;
         Ok(level.over([width, height], options.decimation.variance()))
     };
     (0..kept(width, height, options.levels).end).map(level).collect()
 }
 
-/// The image and its pyramid, to the last level that is kept.
-fn levels(image: &impl Rows, options: &TextureOptions) -> Result<Vec<Level>, TextureError> {
+/// The image and its pyramid, to the last level that is kept, in the memory of others.
+fn levels(
+    image: &impl Rows,
+    options: &TextureOptions,
+    old: Vec<Level>,
+) -> Result<Vec<Level>, TextureError> {
     let TextureOptions { decimation, wrap, .. } = *options;
     let (width, height) = (image.width(), image.height());
-    let mut levels = pyramid_of(width, height, options)?;
+    let mut levels = pyramid_of(width, height, options, old)?;
     let made = match &mut levels[..] {
         [base, next, ..] if height.is_multiple_of(2) => {
             pyramid::store_and_halve(image, base, next, decimation, wrap);

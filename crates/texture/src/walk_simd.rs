@@ -86,7 +86,8 @@ fn weigh<S: Simd>(simd: S, level: &Level, w: &Walk, pieces: &mut [Piece]) {
     let (stride, [mask_x, mask_y]) = (level.stride as i32, level.mask);
     let row = i32x4::load_array(simd, [0, 1, 2, 3]) + w.y0;
     let mut pieces = pieces.iter_mut();
-    for j in (0..w.blocks).map(|block| w.row_of(block)) {
+    for block in 0..w.blocks {
+        let j = w.row_of(block);
         let block = Block::new(simd, w, j);
         let mut starts = block.columns(w);
         let mut columns = f32x16::load_array(simd, COLUMNS);
@@ -100,17 +101,29 @@ fn weigh<S: Simd>(simd: S, level: &Level, w: &Walk, pieces: &mut [Piece]) {
     }
 }
 
+/// The texels of a piece's row.
+#[inline(always)]
+fn fetch<S: Simd>(simd: S, level: &Level, piece: &Piece, row: usize) -> i16x16<S> {
+    let i = piece.offsets[row] as u32 as usize;
+    let run = level.texels.get(i..i + LANES).unwrap_or(&[[0; 4]; LANES]);
+    i16x16::from_slice(simd, run.as_flattened())
+}
+
 /// The weighted average over the pieces of a walk.
 #[inline(always)]
 fn gather<S: Simd>(simd: S, level: &Level, wrap: Wrap, walk: &Walk, pieces: &[Piece]) -> [f32; 4] {
     let mut sums = Sums::new(simd);
+    if walk.small != 0 {
+        for piece in pieces {
+            let weights = i16x16::load_array_ref(simd, &piece.weights);
+            sums.add(simd, weights, |r| fetch(simd, level, piece, r));
+        }
+        return sums.finish_small(level, wrap, walk);
+    }
     for pieces in pieces.chunks(Sums::<S>::ROOM) {
         for piece in pieces {
-            sums.add(simd, i16x16::load_array_ref(simd, &piece.weights), |r| {
-                let i = piece.offsets[r] as u32 as usize;
-                let run = level.texels.get(i..i + LANES).unwrap_or(&[[0; 4]; LANES]);
-                i16x16::from_slice(simd, run.as_flattened())
-            });
+            let weights = i16x16::load_array_ref(simd, &piece.weights);
+            sums.add(simd, weights, |r| fetch(simd, level, piece, r));
         }
         sums.settle(simd);
     }
@@ -121,7 +134,8 @@ fn gather<S: Simd>(simd: S, level: &Level, wrap: Wrap, walk: &Walk, pieces: &[Pi
 #[inline(always)]
 pub(crate) fn walk<S: Simd>(simd: S, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
     let mut sums = Sums::new(simd);
-    for j in (0..w.blocks).map(|block| w.row_of(block)) {
+    for block in 0..w.blocks {
+        let j = w.row_of(block);
         let block = Block::new(simd, w, j);
         let starts = block.columns(w).to_array();
         let mut columns = f32x16::load_array(simd, COLUMNS);
@@ -228,9 +242,21 @@ impl<S: Simd> Sums<S> {
     fn finish(self, level: &Level, wrap: Wrap, walk: &Walk) -> [f32; 4] {
         let (high, low) = (fold(self.high).to_array(), fold(self.low).to_array());
         let sums = core::array::from_fn(|c| f64::from(high[c]) * 4096.0 + f64::from(low[c]));
+        walk.mean(sums, self.total(), level, wrap)
+    }
+
+    /// The same without [`Sums::settle`], for sums that fit 31 bits in all.
+    #[inline(always)]
+    fn finish_small(self, level: &Level, wrap: Wrap, walk: &Walk) -> [f32; 4] {
+        let sums = fold(self.texels).to_array().map(f64::from);
+        walk.mean(sums, self.total(), level, wrap)
+    }
+
+    #[inline(always)]
+    fn total(&self) -> i32 {
         let (even, odd) = self.weights.split();
         let w = (even + odd).to_array();
-        walk.mean(sums, (w[0] + w[2]) + (w[1] + w[3]), level, wrap)
+        (w[0] + w[2]) + (w[1] + w[3])
     }
 }
 
