@@ -4,7 +4,10 @@
 //! 1,000 of 50,000; T5, 10,000 of 500. Corners lie on the 1/256 grid, as in the peers' scenes.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{
+    BatchSize, BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main,
+};
 use scumble_coverage::*;
 use std::hint::black_box;
 
@@ -42,8 +45,38 @@ impl AreaSink for Paint {
         Sink::run(self, y, x0, x1);
     }
     #[inline]
+    fn row(&mut self, y: i32, x0: i32, areas: &[f32]) {
+        let first = (y * WIDTH + x0) as usize;
+        for (pixel, area) in self.pixels[first..first + areas.len()].iter_mut().zip(areas) {
+            *pixel += (area * 255.0) as u32;
+        }
+    }
+    #[inline]
     fn pixel(&mut self, x: i32, y: i32, area: f32) {
         self.pixels[(y * WIDTH + x) as usize] += (area * 255.0) as u32;
+    }
+}
+
+/// Looks at what it gets and writes nothing: what is left is the rasterizer.
+#[derive(Default)]
+struct Count(u64);
+
+impl AreaSink for Count {
+    #[inline]
+    fn run(&mut self, _: i32, x0: i32, x1: i32) {
+        self.0 += (x1 - x0) as u64;
+    }
+    #[inline]
+    fn span(&mut self, _: i32, x0: i32, x1: i32, _: f32) {
+        self.0 += (x1 - x0) as u64;
+    }
+    #[inline]
+    fn row(&mut self, _: i32, _: i32, areas: &[f32]) {
+        self.0 += areas.len() as u64 + u64::from(areas[0].to_bits());
+    }
+    #[inline]
+    fn pixel(&mut self, _: i32, _: i32, area: f32) {
+        self.0 += u64::from(area.to_bits());
     }
 }
 
@@ -79,6 +112,38 @@ fn shapes(points: &[[DVec2; 3]]) -> Vec<Shape> {
     points.iter().filter_map(|&p| Shape::triangle(p).unwrap()).collect()
 }
 
+/// By samples, by area, and by area without a picture.
+fn each_way(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, shapes: &[Shape], clip: IntRect) {
+    let mut paint = Paint::new();
+    let mut scratch = Scratch::new();
+    for samples in [1, 4, 16] {
+        let pattern = SamplePattern::standard(samples).unwrap();
+        group.bench_function(BenchmarkId::new(name, samples), |b| {
+            b.iter(|| {
+                for s in shapes {
+                    s.rasterize(clip, &pattern, &mut scratch, &mut paint);
+                }
+            });
+        });
+    }
+    group.bench_function(BenchmarkId::new(name, "area"), |b| {
+        b.iter(|| {
+            for s in shapes {
+                s.rasterize_area(clip, &mut scratch, &mut paint);
+            }
+        });
+    });
+    let mut count = Count::default();
+    group.bench_function(BenchmarkId::new(name, "area, not painted"), |b| {
+        b.iter(|| {
+            for s in shapes {
+                s.rasterize_area(clip, &mut scratch, &mut count);
+            }
+        });
+    });
+    black_box((&paint.pixels, count.0));
+}
+
 fn coverage(c: &mut Criterion) {
     let mut group = c.benchmark_group("coverage");
     group.sample_size(10);
@@ -88,26 +153,7 @@ fn coverage(c: &mut Criterion) {
         group.bench_function(BenchmarkId::new(name, "setup"), |b| {
             b.iter_batched(|| (), |()| black_box(self::shapes(&points)), BatchSize::PerIteration);
         });
-        let mut paint = Paint::new();
-        let mut scratch = Scratch::new();
-        for samples in [1, 4, 16] {
-            let pattern = SamplePattern::standard(samples).unwrap();
-            group.bench_function(BenchmarkId::new(name, samples), |b| {
-                b.iter(|| {
-                    for s in &shapes {
-                        s.rasterize(FRAME, &pattern, &mut scratch, &mut paint);
-                    }
-                });
-            });
-        }
-        group.bench_function(BenchmarkId::new(name, "area"), |b| {
-            b.iter(|| {
-                for s in &shapes {
-                    s.rasterize_area(FRAME, &mut scratch, &mut paint);
-                }
-            });
-        });
-        black_box(&paint.pixels);
+        each_way(&mut group, name, &shapes, FRAME);
     }
     group.finish();
 }
@@ -144,44 +190,39 @@ fn traversal(c: &mut Criterion) {
     group.finish();
 }
 
-/// 240 closed curves of 64 corners within 900 × 900 pixels: filled paths.
+/// 240 closed curves of 64 corners or more, as in a drawing of 900 × 900 pixels times `scale`: filled
+/// or as strokes 3 pixels wide.
+fn curves(scale: f64, stroked: bool) -> Vec<Shape> {
+    let corners = (64.0 * scale.sqrt()) as u32;
+    let centers = triangles(240, 10.0);
+    let curve = |(i, p): (u32, &[DVec2; 3])| {
+        let size = 10.0 + f64::from(i * i % 151);
+        let ring = |out: f64| -> Vec<DVec2> {
+            let corner = |k: u32| {
+                let angle = f64::from(k) * core::f64::consts::TAU / f64::from(corners);
+                let radius = size * (1.0 + 0.3 * (3.0 * angle).sin() + 0.1 * (7.0 * angle).cos());
+                let turn = DVec2::new(angle.cos(), angle.sin());
+                (p[0] * DVec2::new(0.47, 0.83) + turn * (radius + out)) * scale
+            };
+            (0..corners).map(corner).collect()
+        };
+        let rings = if stroked {
+            vec![ring(1.5), ring(-1.5).into_iter().rev().collect()]
+        } else {
+            vec![ring(0.0)]
+        };
+        Shape::polygon(rings.iter().map(Vec::as_slice), FillRule::NonZero).unwrap()
+    };
+    (0u32..).zip(&centers).filter_map(curve).collect()
+}
+
 fn paths(c: &mut Criterion) {
     let mut group = c.benchmark_group("paths");
     group.sample_size(10);
-    let centers = triangles(240, 10.0);
-    let shapes: Vec<Shape> = (0u32..)
-        .zip(&centers)
-        .filter_map(|(i, p)| {
-            let size = 10.0 + f64::from(i * i % 151);
-            let corner = |k: u32| {
-                let angle = f64::from(k) * core::f64::consts::TAU / 64.0;
-                let radius = size * (1.0 + 0.3 * (3.0 * angle).sin() + 0.1 * (7.0 * angle).cos());
-                p[0] * DVec2::new(0.47, 0.83) + DVec2::new(angle.cos(), angle.sin()) * radius
-            };
-            let points: Vec<DVec2> = (0..64).map(corner).collect();
-            Shape::polygon([&points[..]], FillRule::NonZero).unwrap()
-        })
-        .collect();
-    let clip = IntRect::new(0, 0, 900, 900);
-    let mut paint = Paint::new();
-    let mut scratch = Scratch::new();
-    for samples in [1, 4, 16] {
-        let pattern = SamplePattern::standard(samples).unwrap();
-        group.bench_function(BenchmarkId::new("samples", samples), |b| {
-            b.iter(|| {
-                for s in &shapes {
-                    s.rasterize(clip, &pattern, &mut scratch, &mut paint);
-                }
-            });
-        });
-    }
-    group.bench_function("area", |b| {
-        b.iter(|| {
-            for s in &shapes {
-                s.rasterize_area(clip, &mut scratch, &mut paint);
-            }
-        });
-    });
+    let small = IntRect::new(0, 0, 900, 900);
+    each_way(&mut group, "900", &curves(1.0, false), small);
+    each_way(&mut group, "900 stroked", &curves(1.0, true), small);
+    each_way(&mut group, "1920", &curves(2.2, false), FRAME);
     group.finish();
 }
 

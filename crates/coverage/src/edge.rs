@@ -19,6 +19,7 @@ pub(crate) struct Edge {
 impl Edge {
     /// The edge from `p` to `q` of a triangle that goes clockwise to the eye (y down), so that
     /// the interior lies to the right of the direction of travel.
+    #[inline(always)]
     pub(crate) fn new(p: FixedPoint, q: FixedPoint) -> Self {
         let a = i64::from(p.y) - i64::from(q.y);
         let b = i64::from(q.x) - i64::from(p.x);
@@ -28,6 +29,7 @@ impl Edge {
     }
 
     /// E at a point in 1/256 pixel.
+    #[inline(always)]
     pub(crate) fn at(&self, x: i64, y: i64) -> i64 {
         self.a * x + self.b * y + self.c
     }

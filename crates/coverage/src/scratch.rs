@@ -1,4 +1,4 @@
-use crate::accumulate::AreaRow;
+use crate::area::AreaRow;
 use crate::polygon::PolygonScratch;
 use crate::triangle::TriangleScratch;
 use fearless_simd::Level;

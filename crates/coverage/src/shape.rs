@@ -146,8 +146,8 @@ impl Shape {
             return;
         }
         match &self.0 {
-            Kind::Triangle(t) => t.rasterize_area(region, &mut scratch.area, sink),
-            Kind::Polygon(p) => p.rasterize_area(region, &mut scratch.polygon, sink),
+            Kind::Triangle(t) => t.rasterize_area(region, scratch.level, &mut scratch.area, sink),
+            Kind::Polygon(p) => p.rasterize_area(region, scratch.level, &mut scratch.polygon, sink),
         }
     }
 }

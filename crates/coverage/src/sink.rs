@@ -26,6 +26,10 @@ pub trait Sink {
 ///
 /// As with [`Sink`], the order of the calls is not specified but always the same, and each pixel is
 /// named at most once per call of [`Shape::rasterize_area`](crate::Shape::rasterize_area).
+///
+/// A simple sink has `run` and `pixel`; a quick one has `row` as well, which takes the pixels along
+/// an edge in one go. Which call a pixel comes in depends on the clip, its area does not: `row` may
+/// hold pixels that are covered whole, and some that are not covered at all.
 pub trait AreaSink {
     /// Every pixel in `rect`, which is not empty, is covered whole.
     fn block(&mut self, rect: IntRect) {
@@ -37,13 +41,23 @@ pub trait AreaSink {
     /// The pixels `x0..x1` of row `y` are covered whole; `x0 < x1`.
     fn run(&mut self, y: i32, x0: i32, x1: i32);
 
-    /// The pixels `x0..x1` of row `y` are covered by the same part; `x0 < x1`, 0 < `area` ≤ 1.
+    /// The pixels `x0..x1` of row `y` are covered by the same part; `x0 < x1`, 0 < `area` < 1.
     fn span(&mut self, y: i32, x0: i32, x1: i32, area: f32) {
         for x in x0..x1 {
             self.pixel(x, y, area);
         }
     }
 
-    /// A part of one pixel is covered, 0 < `area` ≤ 1.
+    /// The pixels of row `y` from `x0` on are covered by these parts, 0 ≤ `area` ≤ 1 each; there is
+    /// at least one.
+    fn row(&mut self, y: i32, x0: i32, areas: &[f32]) {
+        for (x, &area) in (x0..).zip(areas) {
+            if area > 0.0 {
+                self.pixel(x, y, area);
+            }
+        }
+    }
+
+    /// A part of one pixel is covered, 0 < `area` ≤ 1. Comes from the other methods only.
     fn pixel(&mut self, x: i32, y: i32, area: f32);
 }

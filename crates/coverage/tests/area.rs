@@ -93,7 +93,50 @@ fn check(contours: &[Vec<[i64; 2]>], rule: FillRule, actual: &Areas, clip: IntRe
 
 const SMALL: IntRect = IntRect::new(-2, -1, 9, 8);
 
+/// Every call as it came.
+#[derive(Debug, Default, PartialEq)]
+struct Calls(Vec<(IntRect, Vec<f32>)>);
+
+impl AreaSink for Calls {
+    fn block(&mut self, rect: IntRect) {
+        self.0.push((rect, vec![]));
+    }
+    fn run(&mut self, y: i32, x0: i32, x1: i32) {
+        self.0.push((IntRect::new(x0, y, x1, y + 1), vec![]));
+    }
+    fn span(&mut self, y: i32, x0: i32, x1: i32, area: f32) {
+        assert!(x0 < x1 && area > 0.0 && area < 1.0);
+        self.0.push((IntRect::new(x0, y, x1, y + 1), vec![area]));
+    }
+    fn row(&mut self, y: i32, x0: i32, areas: &[f32]) {
+        assert!(!areas.is_empty() && areas.iter().all(|a| (0.0..=1.0).contains(a)));
+        self.0.push((IntRect::new(x0, y, x0 + areas.len() as i32, y + 1), areas.to_vec()));
+    }
+    fn pixel(&mut self, _: i32, _: i32, _: f32) {
+        unreachable!("the other methods call it");
+    }
+}
+
 proptest! {
+    #[test]
+    fn every_instruction_set_gives_the_same_calls(
+        contours in prop::collection::vec(prop::collection::vec(point(18), 3..8), 1..3),
+        rule in rule(),
+    ) {
+        for shape in [triangle(&contours[0]), polygon(&contours, rule)].into_iter().flatten() {
+            let mut all = levels().into_iter().map(|level| {
+                let mut calls = Calls::default();
+                shape.rasterize_area(WINDOW, &mut Scratch::with_level(level), &mut calls);
+                calls
+            });
+            let first = all.next().unwrap();
+            prop_assert!(all.all(|calls| calls == first));
+            for (rect, _) in first.0 {
+                prop_assert_eq!(rect.intersect(&WINDOW), rect);
+            }
+        }
+    }
+
     #[test]
     fn a_triangle_has_its_exact_area(p in [point(8), point(8), point(8)]) {
         check(&[p.to_vec()], FillRule::NonZero, &areas(triangle(&p), SMALL), SMALL);

@@ -14,6 +14,9 @@
 //! - Values depend on the order of the calls for a pixel and on nothing else: not on the tile's
 //!   size, nor on what its other pixels hold.
 //!
+//! Where all that is drawn is opaque, [`Visibility`] keeps what is seen instead of its colour: four
+//! bytes a sample in place of sixteen, and each colour is asked for once, at the end.
+//!
 //! # Memory
 //!
 //! A pixel whose samples are all alike is stored once: 20 bytes a pixel, 80 KiB for a tile of
@@ -52,8 +55,12 @@
 extern crate alloc;
 
 mod encode;
+mod palette;
 mod samples;
 mod tile;
+mod visibility;
 
 pub use encode::{encode_row, encode_row_dithered, encode_row16};
+pub use palette::Palette;
 pub use tile::Tile;
+pub use visibility::{Seen, Visibility};

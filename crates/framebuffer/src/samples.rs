@@ -126,19 +126,29 @@ pub(crate) fn same_bits(a: Premul, b: Premul) -> bool {
 /// The differences are added in four chains, sample i to chain i mod 4, and then
 /// (0 + 1) + (2 + 3): a fixed order that a machine of any vector width can follow.
 pub(crate) fn mean(samples: &[Premul]) -> Premul {
-    let Some(&first) = samples.first() else { return Premul::TRANSPARENT };
-    let mut chains = [[0.0; 4]; 4];
-    let (groups, rest) = samples.as_chunks::<4>();
-    for group in groups {
-        add_differences(&mut chains, group, first);
+    mean_of(samples.len(), |i| samples[i])
+}
+
+/// [`mean`] of `len` samples, each told by its number.
+#[inline(always)]
+pub(crate) fn mean_of(len: usize, sample: impl Fn(usize) -> Premul) -> Premul {
+    if len == 0 {
+        return Premul::TRANSPARENT;
     }
-    if !rest.is_empty() {
-        // Filled up with the first sample, which adds nothing.
-        let mut group = [first; 4];
-        group[..rest.len()].copy_from_slice(rest);
+    let first = sample(0);
+    let mut chains = [[0.0; 4]; 4];
+    let whole = len / 4 * 4;
+    for i in (0..whole).step_by(4) {
+        let group = core::array::from_fn(|k| sample(i + k));
         add_differences(&mut chains, &group, first);
     }
-    let n = samples.len() as f32;
+    if whole < len {
+        // Filled up with the first sample, which adds nothing.
+        let group =
+            core::array::from_fn(|k| if whole + k < len { sample(whole + k) } else { first });
+        add_differences(&mut chains, &group, first);
+    }
+    let n = len as f32;
     let [c0, c1, c2, c3] = chains;
     Premul(core::array::from_fn(|c| first.0[c] + ((c0[c] + c1[c]) + (c2[c] + c3[c])) / n))
 }

@@ -74,6 +74,7 @@ mod ramp;
 mod rect;
 #[cfg(feature = "paths")]
 mod stroke;
+mod tiles;
 mod triangle;
 mod triangulate;
 
@@ -93,5 +94,6 @@ pub use ramp::Ramp;
 pub use rect::{IntRect, Rect};
 #[cfg(feature = "paths")]
 pub use stroke::{Cap, Join, StrokeStyle};
+pub use tiles::{TileBins, TileGrid};
 pub use triangle::{EdgeFunction, Triangle};
 pub use triangulate::{triangulate, triangulate_with};

@@ -74,15 +74,30 @@ impl<const N: usize> Ramp<N> {
             return;
         };
         let y = (start.y - origin.y) as f32;
-        let left: [f32; N] = core::array::from_fn(|i| here[i] + below[i] * y);
-        for (i, out) in out.iter_mut().enumerate() {
-            let x = (start.x + i as f64 - origin.x) as f32;
-            *out = make(self.clamp(core::array::from_fn(|i| left[i] + right[i] * x)));
+        let mut left = here;
+        for (left, below) in left.iter_mut().zip(below) {
+            *left += below * y;
+        }
+        let mut column = start.x;
+        for out in out {
+            let x = (column - origin.x) as f32;
+            column += 1.0;
+            let mut value = left;
+            for (value, right) in value.iter_mut().zip(right) {
+                *value += right * x;
+            }
+            *out = make(self.clamp(value));
         }
     }
 
     /// A NaN becomes the lower bound.
-    fn clamp(&self, value: [f32; N]) -> [f32; N] {
-        core::array::from_fn(|i| value[i].max(self.low[i]).min(self.high[i]))
+    #[inline(always)]
+    fn clamp(&self, mut value: [f32; N]) -> [f32; N] {
+        for (v, (low, high)) in value.iter_mut().zip(self.low.iter().zip(self.high)) {
+            // Comparisons in this form are one instruction each.
+            let above = if *v > *low { *v } else { *low };
+            *v = if above < high { above } else { high };
+        }
+        value
     }
 }

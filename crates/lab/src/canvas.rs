@@ -1,5 +1,6 @@
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, ImageError};
+use scumble_pixel::Image;
 
 /// A colour: red, green, blue in 0…1.
 pub(crate) type Rgb = [f64; 3];
@@ -46,6 +47,13 @@ impl Canvas {
             }
         }
         Self { width, height, bytes }
+    }
+
+    /// The picture as an opaque image.
+    pub(crate) fn into_image(self) -> Image<[u8; 4]> {
+        let texels = self.bytes.as_chunks::<3>().0.iter().map(|&[r, g, b]| [r, g, b, 255]);
+        let (width, height) = (self.width as usize, self.height as usize);
+        Image::from_vec(width, height, texels.collect()).unwrap_or_default()
     }
 
     /// The picture as a PNG file: grey if every pixel is, RGB otherwise.

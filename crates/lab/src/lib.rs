@@ -17,10 +17,14 @@
 //! ```
 
 mod canvas;
+pub mod driver;
+pub mod exchange;
+pub mod map;
 mod math;
 mod scenes;
 mod svg;
 mod textures;
+pub mod timing;
 pub mod workloads;
 
 use std::path::{Path, PathBuf};

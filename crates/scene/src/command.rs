@@ -56,6 +56,21 @@ pub struct Stroke {
     pub color: Straight,
 }
 
+impl Stroke {
+    /// How many pixels a unit of the path's coordinates is worth on the canvas, at the most, for a
+    /// map from those units to pixels. At least a little, and near a horizon, where it has no
+    /// bound, at most 10⁴: curves that fine serve any picture.
+    #[must_use]
+    pub fn largest_scale(&self, to_canvas: &Homography) -> f64 {
+        let corners = self.path.bounds().into_iter().flat_map(|rect| rect.corners());
+        let largest = corners
+            .map(|p| to_canvas.jacobian(p).axes().major)
+            .filter(|scale| scale.is_finite())
+            .fold(0.0, f64::max);
+        if largest > 0.0 { largest.min(1e4) } else { 1.0 }
+    }
+}
+
 /// A triangle with colours interpolated between its corners.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GouraudTriangle {

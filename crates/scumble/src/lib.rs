@@ -10,10 +10,10 @@
 //! own; it re-exports them, so that one dependency is enough.
 #![doc = include_str!("guide.md")]
 
-mod bins;
 mod control;
 mod error;
 mod paint;
+mod painter;
 mod plan;
 mod render;
 mod schedule;

@@ -1,7 +1,8 @@
 //! What colour a primitive has at a position: the one thing that a tile asks of it.
 
+use crate::painter::centre;
 use crate::plan::Surface;
-use scumble_geometry::{DVec2, Homography, Matrix2, Ramp};
+use scumble_geometry::{DVec2, Homography, IntRect, Matrix2, Ramp};
 use scumble_pixel::Premul;
 use scumble_texture::{Footprint, Sampler, Texture};
 
@@ -78,6 +79,16 @@ impl Paint {
             Self::Solid(color) => color.alpha() >= 1.0,
             Self::Gouraud(ramp) => ramp.low()[3] >= 1.0,
             Self::Textured(textured) => textured.opaque,
+        }
+    }
+
+    /// Whether the centres of all pixels of a rectangle have a colour: whether none lies behind the
+    /// eye.
+    pub(crate) fn sees_all(&self, rect: IntRect) -> bool {
+        let (x, y) = ([rect.x0, rect.x1 - 1], [rect.y0, rect.y1 - 1]);
+        match self {
+            Self::Textured(t) => x.iter().all(|&x| y.iter().all(|&y| t.sees(centre(x, y)))),
+            _ => true,
         }
     }
 

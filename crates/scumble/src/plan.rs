@@ -2,10 +2,10 @@
 
 use crate::paint::{Paint, Textured};
 use crate::{Interpolation, Settings};
-use scumble_coverage::{Cover, Shape};
+use scumble_coverage::Shape;
 use scumble_geometry::{
-    Affine, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Ramp, Rect, clip_polygon,
-    clip_segment, line_quad,
+    Affine, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Ramp, Rect, clip_segment,
+    line_quad,
 };
 use scumble_pixel::{Premul, Straight};
 use scumble_scene::{
@@ -29,23 +29,27 @@ const FLATNESS: f64 = 1.0 / 64.0;
 /// What a point of an outline takes, at the most, with the edge that it begins.
 const EDGE_BYTES: u64 = 64;
 
-/// A primitive, ready to be drawn.
+/// A primitive, ready to be drawn: a line of the cache, since a tile finds its primitives all over
+/// memory.
 #[derive(Debug)]
+#[repr(align(64))]
 pub(crate) struct Draw {
     pub(crate) form: Form,
     pub(crate) paint: Paint,
     /// Which layer it is painted on.
     pub(crate) layer: u32,
-    /// The pixels of the canvas that it may touch.
-    pub(crate) bounds: IntRect,
+    pub(crate) effect: Effect,
 }
 
-impl Draw {
-    /// Whether it may own a sample of a rectangle.
-    pub(crate) fn touches(&self, rect: IntRect) -> bool {
-        let outside = matches!(&self.form, Form::Shape(shape) if shape.covers(rect) == Cover::None);
-        !outside && !self.bounds.intersect(&rect).is_empty()
-    }
+/// What becomes of the samples that a primitive covers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Effect {
+    /// One opaque colour is seen there.
+    Flat,
+    /// The primitive is seen there, and nothing through it.
+    Hides,
+    /// Anything else.
+    Blends,
 }
 
 /// Which samples a primitive owns.
@@ -54,7 +58,7 @@ pub(crate) enum Form {
     /// Those inside an outline.
     Shape(Shape),
     /// The pixels of a one-pixel line.
-    Chain([DVec2; 2]),
+    Chain(Box<[DVec2; 2]>),
     /// All of one pixel, the one at the top left of the bounds.
     Pixel,
 }
@@ -72,6 +76,9 @@ pub(crate) struct Layer {
 #[derive(Debug)]
 pub(crate) struct Plan {
     pub(crate) draws: Vec<Draw>,
+    /// By draw: the pixels of the canvas that it may touch. Apart from the rest, since it is asked
+    /// for much more often.
+    pub(crate) bounds: Vec<IntRect>,
     pub(crate) layers: Vec<Layer>,
     /// About what the outlines take, in bytes.
     pub(crate) outline_bytes: u64,
@@ -87,8 +94,10 @@ pub(crate) fn build(scene: &Scene, settings: &Settings, surfaces: Vec<Option<Sur
         view: scene.view.homography(settings.width, settings.height),
         canvas,
         layer: 0,
+        last: None,
         plan: Plan {
             draws: Vec::with_capacity(scene.commands.len()),
+            bounds: Vec::with_capacity(scene.commands.len()),
             outline_bytes: 0,
             layers: vec![Layer { parent: 0, opacity: 1.0, depth: 1 }],
             surfaces,
@@ -112,6 +121,8 @@ struct Planner<'a> {
     view: Homography,
     canvas: IntRect,
     layer: u32,
+    /// The last transform, and what came of it: most have the one of the primitive before.
+    last: Option<(Homography, Homography)>,
     plan: Plan,
 }
 
@@ -139,8 +150,11 @@ impl Planner<'_> {
         self.plan.layers.push(layer);
     }
 
-    fn to_canvas(&self, transform: &Homography) -> Homography {
-        self.view * *transform
+    fn to_canvas(&mut self, transform: &Homography) -> Homography {
+        match self.last {
+            Some((last, to_canvas)) if last == *transform => to_canvas,
+            _ => self.last.insert((*transform, self.view * *transform)).1,
+        }
     }
 
     fn import(&self, color: Straight) -> Premul {
@@ -149,9 +163,17 @@ impl Planner<'_> {
 
     fn push(&mut self, form: Form, bounds: IntRect, paint: Paint) {
         let bounds = bounds.intersect(&self.canvas);
-        if !bounds.is_empty() {
-            self.plan.draws.push(Draw { form, paint, layer: self.layer, bounds });
+        if bounds.is_empty() {
+            return;
         }
+        let effect = match &paint {
+            _ if self.layer != 0 || !paint.is_opaque() => Effect::Blends,
+            Paint::Solid(_) => Effect::Flat,
+            _ if self.settings.per_sample() => Effect::Blends,
+            _ => Effect::Hides,
+        };
+        self.plan.bounds.push(bounds);
+        self.plan.draws.push(Draw { form, paint, layer: self.layer, effect });
     }
 
     /// Coordinates that are not finite draw nothing: readers refuse them long before.
@@ -176,7 +198,8 @@ impl Planner<'_> {
 
     fn stroke(&mut self, stroke: &Stroke) {
         let to_canvas = self.to_canvas(&stroke.transform);
-        let outline = stroke.path.stroke(&stroke.style, FLATNESS / scale_of(&to_canvas, stroke));
+        let outline =
+            stroke.path.stroke(&stroke.style, FLATNESS / stroke.largest_scale(&to_canvas));
         let paint = Paint::Solid(self.import(stroke.color));
         self.push_contours(&outline.flatten(&to_canvas, FLATNESS), FillRule::NonZero, paint);
     }
@@ -184,16 +207,17 @@ impl Planner<'_> {
     fn gouraud(&mut self, triangle: &GouraudTriangle) {
         let to_canvas = self.to_canvas(&triangle.transform);
         let corners = triangle.points.map(|p| to_canvas.project_homogeneous(p));
-        let colors = triangle.colors.map(|color| self.import(color));
-        let paint = if colors[0] == colors[1] && colors[1] == colors[2] {
-            Some(Paint::Solid(colors[0]))
+        let [a, b, c] = triangle.colors;
+        let paint = if a == b && b == c {
+            Some(Paint::Solid(self.import(a)))
         } else {
-            Ramp::new(self.attribute_corners(corners), colors.map(|color| color.0))
+            let colors = triangle.colors.map(|color| self.import(color).0);
+            Ramp::new(self.attribute_corners(corners), colors)
                 .ok()
                 .map(|ramp| Paint::Gouraud(Box::new(ramp)))
         };
         if let Some(paint) = paint {
-            self.push_shape(triangle_shape(corners, to_canvas.near_w()), paint);
+            self.push_shape(Shape::projective(&corners, to_canvas.near_w()), paint);
         }
     }
 
@@ -218,7 +242,7 @@ impl Planner<'_> {
             return;
         };
         let paint = self.texture_paint(image, map, self.settings.sampler, opacity);
-        self.push_shape(triangle_shape(corners, to_canvas.near_w()), paint);
+        self.push_shape(Shape::projective(&corners, to_canvas.near_w()), paint);
     }
 
     fn image(&mut self, quad: &ImageQuad) {
@@ -248,7 +272,7 @@ impl Planner<'_> {
         };
         let paint = self.texture_paint(quad.image, map, sampler, quad.opacity);
         let corners = quad.rect.corners().map(|p| to_canvas.project_homogeneous(p));
-        self.push_shape(polygon_shape(&corners, to_canvas.near_w()), paint);
+        self.push_shape(Shape::projective(&corners, to_canvas.near_w()), paint);
     }
 
     fn hairline(&mut self, line: &Hairline) {
@@ -275,7 +299,7 @@ impl Planner<'_> {
             (rect.x1.floor() as i32).saturating_add(1),
             (rect.y1.floor() as i32).saturating_add(1),
         );
-        self.push(Form::Chain([a, b]), bounds, paint);
+        self.push(Form::Chain(Box::new([a, b])), bounds, paint);
     }
 
     fn point(&mut self, point: &Point) {
@@ -312,32 +336,6 @@ impl Planner<'_> {
         let opaque = opacity >= 1.0 && surface.is_some_and(|surface| surface.opaque);
         Paint::Textured(Box::new(Textured { map, surface: image.0, sampler, opacity, opaque }))
     }
-}
-
-/// How many pixels a unit of a stroked path's coordinates is worth, at the most.
-fn scale_of(to_canvas: &Homography, stroke: &Stroke) -> f64 {
-    let bounds = stroke.path.bounds();
-    let corners = bounds.into_iter().flat_map(|rect| rect.corners());
-    let largest = corners
-        .map(|p| to_canvas.jacobian(p).axes().major)
-        .filter(|scale| scale.is_finite())
-        .fold(0.0, f64::max);
-    // Near the horizon the scale has no bound; curves this fine serve any picture.
-    if largest > 0.0 { largest.min(1e4) } else { 1.0 }
-}
-
-fn triangle_shape(corners: [DVec3; 3], min_w: f64) -> Option<Shape> {
-    if corners.iter().all(|c| c.z >= min_w) {
-        return Shape::triangle(corners.map(divide)).ok().flatten();
-    }
-    polygon_shape(&corners, min_w)
-}
-
-fn polygon_shape(corners: &[DVec3], min_w: f64) -> Option<Shape> {
-    let mut clipped = Vec::new();
-    clip_polygon(corners, min_w, &mut clipped);
-    let points: Vec<DVec2> = clipped.into_iter().map(divide).collect();
-    Shape::polygon([&points[..]], FillRule::NonZero).ok().flatten()
 }
 
 fn divide(p: DVec3) -> DVec2 {

@@ -1,15 +1,13 @@
-use crate::bins::{Bins, Grid};
-use crate::plan::{self, Draw, Plan, Surface};
+use crate::plan::{self, Plan, Surface};
 use crate::schedule::{self, Pool};
 use crate::tile::Job;
 use crate::{Background, Control, ImageSink, RenderError, Settings, Sink};
-use scumble_framebuffer::Tile;
-use scumble_geometry::IntRect;
+use scumble_framebuffer::{Tile, Visibility};
+use scumble_geometry::{IntRect, TileBins, TileGrid};
 use scumble_pixel::{Image, Premul};
 use scumble_scene::{Command, ImageId, ImageWrap, Scene, SceneImage};
 use scumble_texture::{LevelMode, Levels, Texture, TextureOptions, Wrap};
 use std::convert::Infallible;
-use std::mem::size_of;
 
 /// Canvases are positioned in `i32` pixels, with room for neighbours to be computed.
 const MAX_SIDE: u32 = (1 << 30) - 1;
@@ -48,7 +46,7 @@ pub fn render<S: Sink>(
     let surfaces = pool.install(|| surfaces(scene, settings))?;
     let texture_bytes = surfaces.iter().flatten().map(|s| s.texture.memory()).sum();
     let plan = plan::build(scene, settings, surfaces);
-    let grid = Grid { area, tile: settings.tile_size };
+    let grid = TileGrid::new(area, settings.tile_size);
     check_memory(&plan, settings, &grid, pool.threads(), texture_bytes)?;
     let stats = Stats {
         width: area.width(),
@@ -58,7 +56,7 @@ pub fn render<S: Sink>(
         threads: pool.threads(),
     };
     let job = Job { plan: &plan, settings, background: background(scene, settings) };
-    let bins = Bins::new(grid, &plan.draws);
+    let bins = TileBins::new(grid, &plan.bounds);
     sink.start(stats.width, stats.height).map_err(RenderError::Sink)?;
     schedule::run(&job, grid, bins, &pool, sink, control)?;
     sink.finish().map_err(RenderError::Sink)?;
@@ -159,16 +157,17 @@ fn check_limit<E>(needed: u64, settings: &Settings) -> Result<(), RenderError<E>
 fn check_memory<E>(
     plan: &Plan,
     settings: &Settings,
-    grid: &Grid,
+    grid: &TileGrid,
     threads: usize,
     texture_bytes: usize,
 ) -> Result<(), RenderError<E>> {
     let (side, samples) = (settings.tile_size, settings.pattern.len() as u32);
-    let tile = Tile::max_bytes(side, side, samples);
+    let seen = Visibility::max_bytes(side, side, samples);
+    let tile = seen + Tile::max_bytes(side, side, samples);
     let depth = plan.layers.iter().map(|layer| layer.depth).max().unwrap_or(1);
     let tiles = tile.saturating_mul(depth).saturating_mul(threads as u64);
-    let rows = schedule::buffered_rows(grid, threads) as u64 * u64::from(grid.area.width()) * 4;
-    let draws = (plan.draws.len() * size_of::<Draw>()) as u64;
+    let rows = schedule::buffered_rows(grid, threads) as u64 * u64::from(grid.area().width()) * 4;
+    let draws = (size_of_val(&plan.draws[..]) + size_of_val(&plan.bounds[..])) as u64;
     let all = [tiles, rows, draws, plan.outline_bytes, texture_bytes as u64];
     check_limit(all.into_iter().fold(0, u64::saturating_add), settings)
 }

@@ -1,9 +1,8 @@
 //! Which tile when, on which thread, and the way of the rows to the sink.
 
-use crate::bins::{Bins, Grid};
 use crate::tile::{Job, Workspace};
 use crate::{Control, RenderError, Sink};
-use scumble_geometry::IntRect;
+use scumble_geometry::{IntRect, TileBins, TileGrid};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
@@ -77,21 +76,21 @@ impl Pool {
 }
 
 /// Bands that are rendered together: at least one, and enough tiles for all threads.
-fn bands_per_group(grid: &Grid, threads: usize) -> usize {
+fn bands_per_group(grid: &TileGrid, threads: usize) -> usize {
     if threads <= 1 { 1 } else { (threads * TILES_PER_THREAD).div_ceil(grid.columns()) }
 }
 
 /// Rows held in memory at once: one group being rendered, one being handed over.
-pub(crate) fn buffered_rows(grid: &Grid, threads: usize) -> usize {
-    2 * (bands_per_group(grid, threads) * grid.tile as usize).min(grid.area.height() as usize)
+pub(crate) fn buffered_rows(grid: &TileGrid, threads: usize) -> usize {
+    2 * (bands_per_group(grid, threads) * grid.side() as usize).min(grid.area().height() as usize)
 }
 
 /// Renders all bands and hands them to the sink, which takes one group of bands while the next
 /// is rendered.
 pub(crate) fn run<S: Sink>(
     job: &Job<'_>,
-    grid: Grid,
-    bins: Bins,
+    grid: TileGrid,
+    bins: TileBins,
     pool: &Pool,
     sink: &mut S,
     control: &Control<'_>,
@@ -115,7 +114,7 @@ pub(crate) fn run<S: Sink>(
             return Err(RenderError::Cancelled);
         }
         if !ready_rows.is_empty() {
-            control.report(ready_rows.end, grid.area.height());
+            control.report(ready_rows.end, grid.area().height());
         }
         std::mem::swap(&mut ready, &mut next);
         ready_rows = rows;
@@ -125,8 +124,8 @@ pub(crate) fn run<S: Sink>(
 
 struct Groups<'a> {
     job: &'a Job<'a>,
-    grid: Grid,
-    bins: Bins,
+    grid: TileGrid,
+    bins: TileBins,
     pool: &'a Pool,
     control: &'a Control<'a>,
     /// For each tile of the group, what touches it.
@@ -145,28 +144,28 @@ struct TileTask<'a> {
 impl Groups<'_> {
     /// The rows of some bands, counted from the top of the picture.
     fn rows(&self, bands: &Range<usize>) -> Range<u32> {
-        let end = |band: usize| (band as u32 * self.grid.tile).min(self.grid.area.height());
+        let end = |band: usize| (band as u32 * self.grid.side()).min(self.grid.area().height());
         end(bands.start)..end(bands.end)
     }
 
     fn render(&mut self, bands: Range<usize>, buffer: &mut Vec<[u8; 4]>) {
         let (columns, grid) = (self.grid.columns(), self.grid);
-        let width = grid.area.width() as usize;
+        let width = grid.area().width() as usize;
         buffer.resize(self.rows(&bands).len() * width, [0; 4]);
         self.lists.resize_with(bands.len() * columns, Vec::new);
         let mut tasks = Vec::with_capacity(self.lists.len());
-        let strips = buffer.chunks_mut(width * grid.tile as usize);
+        let strips = buffer.chunks_mut(width * grid.side() as usize);
         for ((band, strip), lists) in bands.zip(strips).zip(self.lists.chunks_mut(columns)) {
-            self.bins.fill(band, &self.job.plan.draws, lists);
+            self.bins.fill(band, lists);
             let first = tasks.len();
             tasks.extend(lists.iter().enumerate().map(|(column, list)| TileTask {
-                rect: grid.tile_rect(column, band),
+                rect: grid.tile(column, band),
                 list,
-                rows: Vec::with_capacity(grid.tile as usize),
+                rows: Vec::with_capacity(grid.side() as usize),
             }));
             for row in strip.chunks_mut(width) {
                 for (task, piece) in
-                    tasks[first..].iter_mut().zip(row.chunks_mut(grid.tile as usize))
+                    tasks[first..].iter_mut().zip(row.chunks_mut(grid.side() as usize))
                 {
                     task.rows.push(piece);
                 }

@@ -98,4 +98,9 @@ impl Settings {
             max_memory: DEFAULT_MAX_MEMORY,
         }
     }
+
+    /// Whether colours that vary are evaluated sample by sample.
+    pub(crate) fn per_sample(&self) -> bool {
+        self.shading == Shading::Sample && self.pattern.len() > 1
+    }
 }

@@ -1,17 +1,20 @@
 //! One tile: replays its primitives in order, then resolves.
 
+use crate::Settings;
 use crate::paint::Paint;
-use crate::plan::{Draw, Form, Plan};
-use crate::{Settings, Shading};
-use scumble_coverage::{Cover, SampleMask, SamplePattern, Scratch, Sink, hairline};
-use scumble_framebuffer::{Tile, encode_row};
-use scumble_geometry::{DVec2, IntRect};
+use crate::painter::{Painter, Stamp, centre};
+use crate::plan::{Draw, Effect, Form, Plan};
+use scumble_coverage::{Cover, Scratch, Sink, hairline};
+use scumble_framebuffer::{Palette, Tile, Visibility, encode_row};
+use scumble_geometry::IntRect;
 use scumble_pixel::Premul;
 
 /// What a worker keeps from tile to tile, so that nothing is allocated in the steady state.
 #[derive(Debug, Default)]
 pub(crate) struct Workspace {
     scratch: Scratch,
+    /// What is seen, while all that is drawn is opaque.
+    seen: Visibility,
     /// The canvas, then one tile for each open layer.
     stack: Vec<Tile>,
     colors: Vec<Premul>,
@@ -25,6 +28,9 @@ const LEAST_PART: u32 = 16;
 
 /// How many large opaque primitives make the division worth its while.
 const SPLIT_FROM: usize = 3;
+
+/// What stands for the background where keys tell what is seen; after it come the primitives.
+const BACKGROUND: u32 = 0;
 
 /// All that stays the same from tile to tile.
 pub(crate) struct Job<'a> {
@@ -42,56 +48,123 @@ impl Job<'_> {
         list: &[u32],
         rows: &mut [&mut [[u8; 4]]],
     ) {
-        let mut replay = Replay { job: self, work, rect, layers: vec![0] };
-        replay.open(0, self.background);
-        replay.part(rect, list);
-        replay.enter(0);
-        self.resolve(work, rect, rows);
-    }
-
-    fn draw_of(&self, index: u32) -> &Draw {
-        &self.plan.draws[index as usize]
-    }
-
-    /// Whether dividing a part of a tile may hide primitives. Layers are laid over each other by
-    /// the whole tile, so it takes a list without any.
-    fn worth_dividing(&self, rect: IntRect, list: &[u32]) -> bool {
-        let large = |draw: &&Draw| {
-            let seen = draw.bounds.intersect(&rect);
-            draw.paint.is_opaque()
-                && 2 * seen.width() * seen.height() > rect.width() * rect.height()
+        let here = |&i: &u32| {
+            let i = i as usize;
+            Local { draw: &self.plan.draws[i], bounds: self.plan.bounds[i].intersect(&rect) }
         };
-        rect.width().max(rect.height()) > LEAST_PART
-            && list.len() >= SPLIT_FROM
-            && list.iter().all(|&i| self.draw_of(i).layer == 0)
-            && list.iter().map(|&i| self.draw_of(i)).filter(large).take(SPLIT_FROM).count()
-                == SPLIT_FROM
+        let locals: Vec<Local> = list.iter().map(here).collect();
+        let effect = effect(&locals, rect);
+        let visible = effect != Effect::Blends;
+        let mut all = work.lists.pop().unwrap_or_default();
+        all.clear();
+        all.extend(0..locals.len() as u32);
+        let mut replay = Replay { job: self, work, rect, locals, visible, layers: vec![0] };
+        replay.open(0, self.background);
+        replay.part(rect, &all);
+        replay.enter(0);
+        let Replay { work, locals, .. } = replay;
+        work.lists.push(all);
+        self.finish(work, rect, effect, &locals, rows);
     }
 
-    /// Whether a primitive hides whatever lies under it in the whole tile.
-    fn hides(&self, draw: &Draw, rect: IntRect) -> bool {
-        let Form::Shape(shape) = &draw.form else { return false };
-        draw.layer == 0
-            && draw.bounds.intersect(&rect) == rect
-            && draw.paint.is_opaque()
-            && shape.covers(rect) == Cover::Full
-    }
-
-    fn resolve(&self, work: &mut Workspace, rect: IntRect, rows: &mut [&mut [[u8; 4]]]) {
-        work.colors.clear();
-        work.colors.resize(rect.width() as usize, Premul::TRANSPARENT);
-        let Some(tile) = work.stack.first() else { return };
-        for (y, row) in rows.iter_mut().enumerate() {
-            tile.resolve_row(y as u32, &mut work.colors);
-            encode_row(&work.colors, self.settings.space, row);
+    /// Makes pixels of what has been drawn.
+    fn finish(
+        &self,
+        work: &mut Workspace,
+        rect: IntRect,
+        effect: Effect,
+        locals: &[Local<'_>],
+        rows: &mut [&mut [[u8; 4]]],
+    ) {
+        let Workspace { seen, stack, colors, .. } = work;
+        let space = self.settings.space;
+        let palette =
+            if effect == Effect::Flat { self.palette(locals) } else { Palette::new(space) };
+        colors.clear();
+        colors.resize(rect.width() as usize, Premul::TRANSPARENT);
+        for (y, row) in (0..).zip(rows) {
+            match effect {
+                Effect::Flat => {
+                    seen.encode_row(y, &palette, row);
+                    continue;
+                }
+                Effect::Hides => seen.shade_row(y, colors, |key, x, out| {
+                    let place = centre(rect.x0 + x as i32, rect.y0 + y as i32);
+                    match key.checked_sub(1) {
+                        None => out.fill(self.background),
+                        Some(i) => {
+                            locals[i as usize].draw.paint.row(&self.plan.surfaces, place, out);
+                        }
+                    }
+                }),
+                Effect::Blends => stack[0].resolve_row(y, colors),
+            }
+            encode_row(colors, space, row);
         }
     }
+
+    /// The colours of the background and of primitives that have but one.
+    fn palette(&self, locals: &[Local<'_>]) -> Palette {
+        let mut palette = Palette::new(self.settings.space);
+        palette.push(self.background);
+        for local in locals {
+            match local.draw.paint {
+                Paint::Solid(color) => palette.push(color),
+                _ => palette.push(Premul::TRANSPARENT),
+            }
+        }
+        palette
+    }
+}
+
+/// A primitive in a tile.
+struct Local<'a> {
+    draw: &'a Draw,
+    /// The pixels of the tile that it may touch.
+    bounds: IntRect,
+}
+
+impl Local<'_> {
+    /// Whether it may own a sample of a part of the tile.
+    fn touches(&self, part: IntRect) -> bool {
+        let form = &self.draw.form;
+        !self.bounds.intersect(&part).is_empty()
+            && !matches!(form, Form::Shape(shape) if shape.covers(part) == Cover::None)
+    }
+
+    /// Whether it hides whatever lies under it in the whole of a part.
+    fn hides(&self, part: IntRect) -> bool {
+        self.bounds.intersect(&part) == part
+            && self.draw.layer == 0
+            && self.draw.paint.is_opaque()
+            && matches!(&self.draw.form, Form::Shape(shape) if shape.covers(part) == Cover::Full)
+    }
+
+    /// Whether it is opaque and may touch more than half of a part.
+    fn is_large(&self, part: IntRect) -> bool {
+        let seen = self.bounds.intersect(&part);
+        2 * seen.width() * seen.height() > part.width() * part.height()
+            && self.draw.paint.is_opaque()
+    }
+}
+
+/// What all primitives of a tile come to. (Looking at them all, one right after the other, also
+/// brings them into the cache much faster than drawing them does.)
+fn effect(locals: &[Local<'_>], rect: IntRect) -> Effect {
+    let effect = locals.iter().map(|local| local.draw.effect).max().unwrap_or(Effect::Flat);
+    // Where a pixel's centre lies behind the eye, its colour depends on what is covered.
+    let even = || locals.iter().all(|local| local.draw.paint.sees_all(rect));
+    if effect == Effect::Hides && !even() { Effect::Blends } else { effect }
 }
 
 struct Replay<'a> {
     job: &'a Job<'a>,
     work: &'a mut Workspace,
     rect: IntRect,
+    /// The primitives of the tile; lists hold their places here.
+    locals: Vec<Local<'a>>,
+    /// Whether [`Workspace::seen`] is drawn on, and not the stack.
+    visible: bool,
     /// The open layers, from the canvas to the innermost.
     layers: Vec<u32>,
 }
@@ -99,11 +172,15 @@ struct Replay<'a> {
 impl Replay<'_> {
     /// Clears the tile at a depth of the stack.
     fn open(&mut self, depth: usize, color: Premul) {
+        let (width, height) = (self.rect.width(), self.rect.height());
+        let samples = self.job.settings.pattern.len() as u32;
+        if self.visible {
+            return self.work.seen.reset(width, height, samples, BACKGROUND);
+        }
         if self.work.stack.len() <= depth {
             self.work.stack.push(Tile::new());
         }
-        let samples = self.job.settings.pattern.len() as u32;
-        self.work.stack[depth].reset(self.rect.width(), self.rect.height(), samples, color);
+        self.work.stack[depth].reset(width, height, samples, color);
     }
 
     /// Closes and opens layers until `target` is the innermost. A layer's primitives follow each
@@ -141,149 +218,55 @@ impl Replay<'_> {
 
     /// Draws a list on a part of the tile, leaving out what is hidden there.
     fn part(&mut self, rect: IntRect, list: &[u32]) {
-        let job = self.job;
-        let top = list.iter().rposition(|&i| job.hides(job.draw_of(i), rect)).unwrap_or(0);
-        let list = &list[top..];
-        if !job.worth_dividing(rect, list) {
+        let hides = |&i: &u32| self.locals[i as usize].hides(rect);
+        let list = &list[list.iter().rposition(hides).unwrap_or(0)..];
+        if !self.worth_dividing(rect, list) {
             for &i in list {
-                let draw = job.draw_of(i);
-                self.enter(draw.layer);
-                self.draw(draw, rect);
+                self.draw(i, rect);
             }
             return;
         }
         let mut touching = self.work.lists.pop().unwrap_or_default();
         for quarter in rect.quarters() {
             touching.clear();
-            touching.extend(list.iter().filter(|&&i| job.draw_of(i).touches(quarter)));
+            touching.extend(list.iter().filter(|&&i| self.locals[i as usize].touches(quarter)));
             self.part(quarter, &touching);
         }
         self.work.lists.push(touching);
     }
 
-    fn draw(&mut self, draw: &Draw, rect: IntRect) {
-        let clip = rect.intersect(&draw.bounds);
+    /// Whether dividing a part of a tile may hide primitives. Layers are laid over each other by
+    /// the whole tile, so it takes a list without any.
+    fn worth_dividing(&self, part: IntRect, list: &[u32]) -> bool {
+        let local = |&i: &u32| &self.locals[i as usize];
+        let large = list.iter().map(local).filter(|local| local.is_large(part));
+        part.width().max(part.height()) > LEAST_PART
+            && large.take(SPLIT_FROM).count() == SPLIT_FROM
+            && list.iter().map(local).all(|local| local.draw.layer == 0)
+    }
+
+    fn draw(&mut self, index: u32, part: IntRect) {
+        let Local { draw, bounds } = self.locals[index as usize];
+        let (job, clip, origin) = (self.job, part.intersect(&bounds), (self.rect.x0, self.rect.y0));
+        if self.visible {
+            let Workspace { scratch, seen, .. } = &mut *self.work;
+            let mut stamp = Stamp { tile: seen, origin, key: BACKGROUND + 1 + index };
+            return cover(job, &draw.form, clip, scratch, &mut stamp);
+        }
+        self.enter(draw.layer);
         let Workspace { scratch, stack, colors, .. } = &mut *self.work;
-        let mut painter = Painter {
-            job: self.job,
-            paint: &draw.paint,
-            tile: &mut stack[self.layers.len() - 1],
-            origin: (self.rect.x0, self.rect.y0),
-            colors,
-        };
-        match &draw.form {
-            Form::Shape(shape) => {
-                shape.rasterize(clip, &self.job.settings.pattern, scratch, &mut painter);
-            }
-            Form::Chain([a, b]) => hairline(*a, *b, clip, |x, y| painter.run(y, x, x + 1)),
-            Form::Pixel if !clip.is_empty() => painter.block(clip),
-            Form::Pixel => {}
-        }
+        let tile = &mut stack[self.layers.len() - 1];
+        let mut painter = Painter { job, paint: &draw.paint, tile, origin, colors };
+        cover(job, &draw.form, clip, scratch, &mut painter);
     }
 }
 
-/// Colours what a primitive covers.
-struct Painter<'a> {
-    job: &'a Job<'a>,
-    paint: &'a Paint,
-    tile: &'a mut Tile,
-    /// The tile's top left pixel.
-    origin: (i32, i32),
-    colors: &'a mut Vec<Premul>,
-}
-
-impl Painter<'_> {
-    fn local(&self, x: i32, y: i32) -> (u32, u32) {
-        (x.abs_diff(self.origin.0), y.abs_diff(self.origin.1))
+/// Hands the samples of a primitive to a sink.
+fn cover(job: &Job<'_>, form: &Form, clip: IntRect, scratch: &mut Scratch, sink: &mut impl Sink) {
+    match form {
+        Form::Shape(shape) => shape.rasterize(clip, &job.settings.pattern, scratch, sink),
+        Form::Chain(ends) => hairline(ends[0], ends[1], clip, |x, y| sink.run(y, x, x + 1)),
+        Form::Pixel if !clip.is_empty() => sink.block(clip),
+        Form::Pixel => {}
     }
-
-    fn pattern(&self) -> &SamplePattern {
-        &self.job.settings.pattern
-    }
-
-    /// Whether colours are evaluated sample by sample. One colour need not be.
-    fn per_sample(&self) -> bool {
-        self.job.settings.shading == Shading::Sample
-            && self.pattern().len() > 1
-            && !matches!(self.paint, Paint::Solid(_))
-    }
-
-    /// Evaluates and blends the samples of a mask, each at its own position.
-    fn samples(&mut self, x: i32, y: i32, mask: u64) {
-        let surfaces = &self.job.plan.surfaces;
-        let share = 1.0 / (self.pattern().len() as f64).sqrt();
-        self.colors.clear();
-        for (i, &offset) in self.job.settings.pattern.offsets().iter().enumerate() {
-            if mask >> i & 1 == 1 {
-                self.colors.push(self.paint.sample(surfaces, position(x, y, offset), share));
-            }
-        }
-        let (lx, ly) = self.local(x, y);
-        self.tile.blend_samples(lx, ly, mask, self.colors);
-    }
-}
-
-impl Sink for Painter<'_> {
-    fn block(&mut self, rect: IntRect) {
-        if let Paint::Solid(color) = self.paint {
-            let (x, y) = self.local(rect.x0, rect.y0);
-            return self.tile.fill_block(x, y, rect.width(), rect.height(), *color);
-        }
-        for y in rect.y0..rect.y1 {
-            self.run(y, rect.x0, rect.x1);
-        }
-    }
-
-    fn run(&mut self, y: i32, x0: i32, x1: i32) {
-        let (x, local_y) = self.local(x0, y);
-        if let Paint::Solid(color) = self.paint {
-            return self.tile.fill_block(x, local_y, x1.abs_diff(x0), 1, *color);
-        }
-        if self.per_sample() {
-            let all = self.pattern().full_mask().0;
-            for x in x0..x1 {
-                self.samples(x, y, all);
-            }
-            return;
-        }
-        self.colors.clear();
-        self.colors.resize(x1.abs_diff(x0) as usize, Premul::TRANSPARENT);
-        self.paint.row(&self.job.plan.surfaces, centre(x0, y), self.colors);
-        self.tile.blend_run(x, local_y, self.colors);
-    }
-
-    fn pixel(&mut self, x: i32, y: i32, mask: SampleMask) {
-        if self.per_sample() {
-            return self.samples(x, y, mask.0);
-        }
-        let color = match self.paint {
-            Paint::Solid(color) => *color,
-            paint => {
-                let fallback = || centroid(x, y, self.pattern(), mask);
-                paint.at(&self.job.plan.surfaces, centre(x, y), fallback)
-            }
-        };
-        let (lx, ly) = self.local(x, y);
-        self.tile.blend_masked(lx, ly, mask.0, color);
-    }
-}
-
-fn centre(x: i32, y: i32) -> DVec2 {
-    DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)
-}
-
-fn position(x: i32, y: i32, offset: [u8; 2]) -> DVec2 {
-    let [dx, dy] = offset.map(|v| f64::from(v) / 256.0);
-    DVec2::new(f64::from(x) + dx, f64::from(y) + dy)
-}
-
-/// The mean of the covered samples.
-fn centroid(x: i32, y: i32, pattern: &SamplePattern, mask: SampleMask) -> DVec2 {
-    let mut sum = DVec2::ZERO;
-    for (i, &offset) in pattern.offsets().iter().enumerate() {
-        if mask.0 >> i & 1 == 1 {
-            sum += position(x, y, offset);
-        }
-    }
-    sum / f64::from(mask.count())
 }

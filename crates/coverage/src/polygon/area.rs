@@ -1,59 +1,144 @@
 //! Exact area of polygons under a fill rule.
 //!
-//! Summing signed areas is only right where the winding number is 0 or 1. So each row of pixels is
-//! cut at the heights where an edge begins, ends or crosses another. Inside such a strip the edges
-//! have an order from left to right, the winding number follows, and so does which of them bound
-//! the inside: +1 where it begins, −1 where it ends, 0 for an edge between inside and inside. An
-//! edge is handed to the sums only when that changes.
+//! Summing signed areas is only right where the winding number is 0 or 1. So an edge adds to the
+//! sums with a weight: +1 where the inside begins, −1 where it ends, 0 between inside and inside.
+//!
+//! The edges of a row of pixels fall into clusters, one beside the other, between which the winding
+//! number is the same from the top of the row to its bottom. In most of them the weights are plain:
+//! an edge through the whole row, a chain of edges one below the other, or edges side by side that
+//! do not cross. The others are cut into strips (see [`super::strips`]).
 
-use super::rows::{PolygonScratch, Rows};
+use super::rows::{ActiveEdge, PolygonScratch, Rows};
+use super::strips::Strips;
 use super::{Polygon, PolygonEdge};
 use crate::AreaSink;
-use crate::accumulate::{AreaRow, ONE, Piece, Slope};
-use alloc::vec::Vec;
+use crate::area::{AreaRow, CHUNK, GAP, ROW_CELLS, Reach, Slope, touched};
 use core::cmp::Ordering;
+use fearless_simd::{Level, Simd, dispatch};
 use scumble_geometry::IntRect;
-
-/// Columns of a row's sums: what comfortably stays in the cache.
-const ROW_CELLS: i32 = 1 << 15;
 
 /// With more edges than this in one row of pixels, the heights where they begin and end are rounded
 /// to a power of two times 1/256 pixel, so that the work in a row stays within edges × log(edges).
 /// Each edge's part in such a crowded row is then off by no more than that height.
 const CROWD: usize = 4096;
 
-/// Strips per row that crossings may add, times edges. Beyond it edges that cross inside a strip
-/// count as if they did so at its end.
-const CROSSING_WORK: usize = 1 << 16;
-
-/// Two edges have crossed if they are out of order by more than this (in pixels). Less is rounding,
-/// and as an area it is far below that of an f32.
-const OUT_OF_ORDER: f64 = 1.0 / (1 << 26) as f64;
-
-/// Working memory of a row.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Sweep {
-    /// The edges of the row that have not begun, by falling start.
-    waiting: Vec<Live>,
-    /// Those in the current strip, from left to right.
-    live: Vec<Live>,
-    /// The inside at the clip's left: +1 or 0, and since which height.
-    left_inside: i64,
-    left_since: f64,
+/// An edge that meets the current row.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct AreaEdge {
+    pub(super) slope: Slope,
+    /// Heights in 1/256 pixel.
+    top: i32,
+    bottom: i32,
+    pub(super) winding: i32,
+    /// Within the row, in 1/256 pixel from its top.
+    from: i32,
+    to: i32,
+    pub(super) reach: Reach,
+    /// The leftmost and the rightmost x.
+    extent: [f64; 2],
+    pub(super) pixels: (i32, i32),
 }
 
-/// An edge within the row.
-#[derive(Debug, Clone, Copy)]
-struct Live {
-    piece: Piece,
-    end: f64,
-    winding: i32,
-    /// What it bounds, and since which height.
-    weight: i64,
-    since: f64,
-    /// x at the top and at the bottom of the strip.
-    x: f64,
-    next_x: f64,
+impl From<PolygonEdge> for AreaEdge {
+    #[inline(always)]
+    fn from(e: PolygonEdge) -> Self {
+        let slope = Slope::new(e.x0, e.y0, e.x1, e.y1);
+        Self {
+            slope,
+            top: e.y0,
+            bottom: e.y1,
+            winding: e.winding,
+            from: 0,
+            to: 0,
+            reach: Reach::NONE,
+            extent: [0.0; 2],
+            pixels: (0, 0),
+        }
+    }
+}
+
+impl ActiveEdge for AreaEdge {
+    #[inline(always)]
+    fn bottom(&self) -> i32 {
+        self.bottom
+    }
+}
+
+impl AreaEdge {
+    /// Moves on to row `y` within the columns of `rect`; heights are rounded to `grain`.
+    #[inline(always)]
+    fn enter(&mut self, y: i32, grain: i32, rect: IntRect) {
+        let within = |height: i32| (height - y * 256).clamp(0, 256);
+        let rounded = |height: i32| (within(height) + grain / 2) / grain * grain;
+        let rounded = |height: i32| if grain == 1 { within(height) } else { rounded(height) };
+        (self.from, self.to) = (rounded(self.top), rounded(self.bottom));
+        let (start, end) = self.heights(y);
+        self.reach = self.slope.reach(start, end);
+        self.extent = self.reach.extent();
+        self.pixels = touched(self.extent, rect.x0, rect.x1);
+    }
+
+    /// The heights in pixels between which it runs in row `y`.
+    #[inline(always)]
+    pub(super) fn heights(&self, y: i32) -> (f64, f64) {
+        let height = |within: i32| f64::from(y) + f64::from(within) * (1.0 / 256.0);
+        (height(self.from), height(self.to))
+    }
+
+    /// From left to right at `self.from`, those that meet there as they go on; the same for two
+    /// edges between the same heights at their bottom.
+    fn is_left_of(&self, other: &Self) -> bool {
+        let ends = |e: &Self| (e.reach.sign * e.reach.from, e.reach.sign * e.reach.to);
+        let (a, b) = (ends(self), ends(other));
+        a.0 <= b.0 && a.1 <= b.1
+    }
+}
+
+/// At which heights inside a row the winding number right of the edges so far differs from that at
+/// its top.
+#[derive(Debug, Clone)]
+pub(super) struct Crossings {
+    /// By how much it changes at each height, in 1/256 pixel from the top.
+    changes: [i32; 257],
+    /// How many of them are not 0.
+    count: usize,
+}
+
+impl Default for Crossings {
+    fn default() -> Self {
+        Self { changes: [0; 257], count: 0 }
+    }
+}
+
+impl Crossings {
+    #[inline(always)]
+    fn add(&mut self, height: i32, change: i32) {
+        if height > 0 && height < 256 {
+            let at = &mut self.changes[height as usize];
+            self.count -= usize::from(*at != 0);
+            *at += change;
+            self.count += usize::from(*at != 0);
+        }
+    }
+
+    #[inline(always)]
+    fn add_edge(&mut self, e: &AreaEdge) {
+        self.add(e.from, e.winding);
+        self.add(e.to, -e.winding);
+    }
+
+    /// Forgets what the clip has left open.
+    fn clear(&mut self) {
+        if self.count > 0 {
+            *self = Self::default();
+        }
+    }
+}
+
+/// A polygon within a clip that is narrow enough for the sums of a row.
+struct Clipped<'a> {
+    polygon: &'a Polygon,
+    rect: IntRect,
 }
 
 impl Polygon {
@@ -61,213 +146,254 @@ impl Polygon {
     pub(crate) fn rasterize_area(
         &self,
         region: IntRect,
+        level: Level,
         scratch: &mut PolygonScratch,
         sink: &mut impl AreaSink,
     ) {
         let mut x = region.x0;
         while x < region.x1 {
             let end = region.x1.min(x + ROW_CELLS);
-            self.area_strip(IntRect { x0: x, x1: end, ..region }, scratch, sink);
+            let clipped = Clipped { polygon: self, rect: IntRect { x0: x, x1: end, ..region } };
+            dispatch!(level, simd => clipped.rasterize::<_, true>(simd, scratch, sink));
             x = end;
         }
     }
+}
 
-    fn area_strip(&self, rect: IntRect, scratch: &mut PolygonScratch, sink: &mut impl AreaSink) {
-        let PolygonScratch { rows, area, sweep, .. } = scratch;
+impl Clipped<'_> {
+    /// With `PLAIN`, plain clusters take the short way; without it all are cut into strips, which
+    /// gives the same to the bit.
+    #[inline(always)]
+    fn rasterize<S: Simd, const PLAIN: bool>(
+        &self,
+        simd: S,
+        scratch: &mut PolygonScratch,
+        sink: &mut impl AreaSink,
+    ) {
+        let PolygonScratch { area_rows: rows, area, crossings, strips, .. } = scratch;
+        let rect = self.rect;
         area.start(rect.x0, rect.x1);
-        rows.start(self, rect);
+        rows.start(self.polygon, rect);
         let mut y = rect.y0;
         while y < rect.y1 {
             rows.advance(y);
             let calm = rows.calm_until(y, rect.y1);
             if calm > y {
-                if self.is_inside(rows.left) {
+                if self.polygon.is_inside(rows.left) {
                     sink.block(IntRect { y0: y, y1: calm, ..rect });
                 }
                 y = calm;
                 continue;
             }
-            self.area_row(y, rect.x0, rows, sweep, area);
-            area.sweep(y, sink);
+            self.enter_row(y, rows);
+            self.row::<S, PLAIN>(simd, y, rows, (crossings, strips, area), sink);
+            area.finish(simd, y, sink);
             y += 1;
         }
     }
 
-    /// Adds one row of pixels to the sums.
-    fn area_row(&self, y: i32, left: i32, rows: &Rows, sweep: &mut Sweep, area: &mut AreaRow) {
-        let (row_top, row_bottom) = (f64::from(y), f64::from(y) + 1.0);
-        sweep.start(y, &rows.active);
-        let crossings = CROSSING_WORK / (rows.active.len() + 1);
-        let mut budget = crossings;
-        let mut steps = rows.steps().iter().peekable();
+    /// Finds where the edges lie in row `y`, and sorts them from left to right.
+    #[inline(always)]
+    fn enter_row(&self, y: i32, rows: &mut Rows<AreaEdge>) {
+        let grain = (rows.active.len() / CROWD).max(1).next_power_of_two().min(256) as i32;
+        for e in &mut rows.active {
+            e.enter(y, grain, self.rect);
+        }
+        sort(&mut rows.active, |a, b| a.extent[0].total_cmp(&b.extent[0]));
+    }
+
+    /// Adds one row of pixels to the sums, cluster by cluster.
+    #[inline(always)]
+    fn row<S: Simd, const PLAIN: bool>(
+        &self,
+        simd: S,
+        y: i32,
+        rows: &Rows<AreaEdge>,
+        (crossings, strips, area): (&mut Crossings, &mut Strips, &mut AreaRow),
+        sink: &mut impl AreaSink,
+    ) {
         let mut winding = rows.left;
-        let mut top = row_top;
-        while top < row_bottom {
-            while let Some(step) = steps.next_if(|s| f64::from(s.0) / 256.0 <= top) {
-                winding += step.1;
-            }
-            sweep.retire_and_admit(top, area);
-            let step = steps.peek().map_or(row_bottom, |s| f64::from(s.0) / 256.0);
-            let mut bottom = sweep.next_event(step.min(row_bottom));
-            sweep.order(top, bottom);
-            if budget > 0
-                && let Some(crossing) = sweep.first_crossing(top, bottom)
-            {
-                budget -= 1;
-                bottom = crossing;
-            }
-            self.weigh(winding, top, left, sweep, area);
-            top = bottom;
+        let steps = rows.steps();
+        area.begin(if steps.is_empty() && self.polygon.is_inside(winding) { 1.0 } else { 0.0 });
+        for &(height, change) in steps {
+            crossings.add(height - y * 256, change);
         }
-        sweep.finish(row_bottom, left, area);
+        let mut edges = &rows.active[..];
+        let mut steps = steps;
+        while !edges.is_empty() || !steps.is_empty() {
+            let (cluster, others) = edges.split_at(cluster(edges, crossings));
+            let after = winding + net(cluster);
+            let plain = PLAIN && steps.is_empty();
+            let weights = plain.then(|| self.weights(cluster, winding, crossings.count == 0));
+            match weights.flatten() {
+                Some([weight, _])
+                    if is_lone(cluster, others) && area.is_beyond(cluster[0].pixels.0) =>
+                {
+                    let e = &cluster[0];
+                    if weight != 0 {
+                        area.add_lone(simd, y, &e.reach, e.pixels, f64::from(weight), sink);
+                    }
+                }
+                Some(weights) => {
+                    for (i, e) in cluster.iter().enumerate() {
+                        let weight = if i == 0 { weights[0] } else { weights[1] };
+                        if weight != 0 && e.from < e.to {
+                            area.open(simd, y, e.pixels, sink);
+                            area.add(simd, &e.reach, e.pixels, f64::from(weight));
+                        }
+                    }
+                }
+                None => {
+                    let last = cluster.iter().map(|e| e.pixels.1).max();
+                    if let (Some(first), Some(last)) = (cluster.first(), last) {
+                        area.open(simd, y, (first.pixels.0, last), sink);
+                    }
+                    strips.add(simd, self.polygon, y, (cluster, winding, steps), area);
+                }
+            }
+            (edges, winding, steps) = (others, after, &[]);
+        }
+        crossings.clear();
     }
 
-    /// Which edges bound the inside, from `top` on.
-    fn weigh(&self, left: i32, top: f64, x: i32, sweep: &mut Sweep, area: &mut AreaRow) {
-        let mut winding = left;
-        let mut inside = self.is_inside(winding);
-        sweep.set_left(i64::from(inside), top, x, area);
-        for edge in &mut sweep.live {
-            winding += edge.winding;
-            let now = self.is_inside(winding);
-            edge.set_weight(i64::from(now) - i64::from(inside), top, area);
-            inside = now;
-        }
-    }
-}
-
-impl Live {
-    fn new(edge: &PolygonEdge, y: i32, grain: i32) -> Option<Self> {
-        let rounded = |height: i32| {
-            let within = (height - y * 256).clamp(0, 256);
-            y * 256 + (within + grain / 2) / grain * grain
+    /// The weight of the first edge and that of the others, if the cluster is a plain one.
+    #[inline(always)]
+    fn weights(&self, cluster: &[AreaEdge], before: i32, complete: bool) -> Option<[i32; 2]> {
+        let weight = |from: i32, to: i32| {
+            i32::from(self.polygon.is_inside(to)) - i32::from(self.polygon.is_inside(from))
         };
-        let (start, end) = (rounded(edge.y0), rounded(edge.y1));
-        let slope = Slope::new(edge.x0, edge.y0, edge.x1, edge.y1);
-        let (start, end) = (f64::from(start) / 256.0, f64::from(end) / 256.0);
-        (start < end).then(|| Self {
-            piece: Piece::new(slope, start),
-            end,
-            winding: edge.winding,
-            weight: 0,
-            since: start,
-            x: 0.0,
-            next_x: 0.0,
-        })
-    }
-
-    #[inline]
-    fn set_weight(&mut self, weight: i64, y: f64, area: &mut AreaRow) {
-        if weight != self.weight {
-            self.flush(y, area);
-            self.weight = weight;
-            self.since = y;
+        let (first, others) = cluster.split_first()?;
+        let after = before + first.winding;
+        if others.is_empty() && (first.from, first.to) == (0, 256) {
+            return Some([weight(before, after); 2]);
         }
-    }
-
-    #[inline]
-    fn flush(&self, y: f64, area: &mut AreaRow) {
-        if self.weight != 0 && self.since < y {
-            area.add(&self.piece, self.since, y, self.weight);
-        }
-    }
-}
-
-impl Sweep {
-    fn start(&mut self, y: i32, active: &[PolygonEdge]) {
-        self.live.clear();
-        self.waiting.clear();
-        self.left_inside = 0;
-        self.left_since = f64::from(y);
-        let grain = (active.len() / CROWD).max(1).next_power_of_two().min(256) as i32;
-        self.waiting.extend(active.iter().filter_map(|e| Live::new(e, y, grain)));
-        self.waiting.sort_unstable_by(|a, b| b.piece.start().total_cmp(&a.piece.start()));
-    }
-
-    /// Drops the edges that end at `top` and takes in those that begin there.
-    fn retire_and_admit(&mut self, top: f64, area: &mut AreaRow) {
-        self.live.retain(|e| {
-            if e.end <= top {
-                e.flush(e.end, area);
+        if let [second] = others
+            && (first.from, first.to) == (second.from, second.to)
+        {
+            // Side by side; the one that begins further left at its leftmost x need not be the
+            // left one.
+            let then = after + second.winding;
+            if first.is_left_of(second) {
+                return Some([weight(before, after), weight(after, then)]);
             }
-            e.end > top
-        });
-        while let Some(edge) = self.waiting.pop_if(|e| e.piece.start() <= top) {
-            self.live.push(edge);
-        }
-    }
-
-    /// The next height at which an edge begins or ends, at most `limit`.
-    fn next_event(&self, limit: f64) -> f64 {
-        let begin = self.waiting.last().map_or(limit, |e| e.piece.start());
-        self.live.iter().fold(limit.min(begin), |y, e| y.min(e.end))
-    }
-
-    /// Sorts the edges from left to right at `top`, those that meet there as they go on.
-    fn order(&mut self, top: f64, bottom: f64) {
-        for e in &mut self.live {
-            e.x = e.piece.at(top);
-            e.next_x = e.piece.at(bottom);
-        }
-        sort(&mut self.live, |a, b| a.x.total_cmp(&b.x).then(a.next_x.total_cmp(&b.next_x)));
-    }
-
-    /// The first height strictly inside the strip at which two neighbours have met.
-    fn first_crossing(&self, top: f64, bottom: f64) -> Option<f64> {
-        let mut part = 1.0;
-        for pair in self.live.windows(2) {
-            let (before, after) = (pair[1].x - pair[0].x, pair[0].next_x - pair[1].next_x);
-            if after > OUT_OF_ORDER {
-                part = f64::min(part, before / (before + after));
+            if second.is_left_of(first) {
+                let between = before + second.winding;
+                return Some([weight(between, then), weight(before, between)]);
             }
-        }
-        if part >= 1.0 {
             return None;
         }
-        // Up to the next 2⁻²⁴ of a pixel: heights are whole units, and each crossing is progress.
-        const GRID: f64 = (1 << 24) as f64;
-        let units = (top + (bottom - top) * part) * GRID;
-        let height = (crate::fixed::floor(units) + 1.0) / GRID;
-        (height < bottom).then_some(height)
+        // One below the other: in a complete cluster, edges of one winding that fill the height of
+        // the row leave no gap and do not overlap.
+        let height: i32 = cluster.iter().map(|e| e.to - e.from).sum();
+        (complete && height == 256 && others.iter().all(|e| e.winding == first.winding))
+            .then(|| [weight(before, after); 2])
     }
+}
 
-    fn set_left(&mut self, inside: i64, y: f64, x: i32, area: &mut AreaRow) {
-        if inside != self.left_inside {
-            self.flush_left(y, x, area);
-            self.left_inside = inside;
-            self.left_since = y;
+/// How many edges make the next cluster: as many as it takes until no edge crosses a later one, and
+/// until the winding number right of them is the same all the way down.
+#[inline(always)]
+fn cluster(edges: &[AreaEdge], crossings: &mut Crossings) -> usize {
+    let mut right = f64::NEG_INFINITY;
+    for (i, e) in edges.iter().enumerate() {
+        if e.extent[0] >= right && crossings.count == 0 && i > 0 {
+            return i;
         }
+        crossings.add_edge(e);
+        right = right.max(e.extent[1]);
     }
+    edges.len()
+}
 
-    fn flush_left(&self, y: f64, x: i32, area: &mut AreaRow) {
-        if self.left_inside != 0 {
-            // A multiple of 2⁻²⁴: exact.
-            area.add_from(x, ((y - self.left_since) * ONE as f64) as i64);
-        }
-    }
+/// Whether the cluster is a single edge that touches few pixels, and no edge comes next to it.
+#[inline(always)]
+fn is_lone(cluster: &[AreaEdge], others: &[AreaEdge]) -> bool {
+    let [e] = cluster else { return false };
+    let (first, last) = e.pixels;
+    last - first < CHUNK && others.first().is_none_or(|o| o.pixels.0 > last + GAP)
+}
 
-    fn finish(&mut self, bottom: f64, x: i32, area: &mut AreaRow) {
-        for e in &self.live {
-            e.flush(bottom, area);
-        }
-        self.flush_left(bottom, x, area);
-    }
+/// By how much the winding number right of the edges differs from that left of them, at the top of
+/// the row.
+#[inline(always)]
+fn net(edges: &[AreaEdge]) -> i32 {
+    edges.iter().filter(|e| e.from == 0 && e.to > 0).map(|e| e.winding).sum()
 }
 
 /// Sorts what is nearly sorted.
-fn sort(live: &mut [Live], order: impl Fn(&Live, &Live) -> Ordering) {
-    // Few edges, or hardly any out of place: insertion. Otherwise not.
-    if live.len() > 32 {
-        if !live.is_sorted_by(|a, b| order(a, b).is_le()) {
-            live.sort_unstable_by(order);
+pub(super) fn sort<T>(values: &mut [T], order: impl Fn(&T, &T) -> Ordering) {
+    // Few, or hardly any out of place: insertion. Otherwise not.
+    if values.len() > 32 {
+        if !values.is_sorted_by(|a, b| order(a, b).is_le()) {
+            values.sort_unstable_by(order);
         }
         return;
     }
-    for i in 1..live.len() {
+    for i in 1..values.len() {
         let mut j = i;
-        while j > 0 && order(&live[j - 1], &live[j]).is_gt() {
-            live.swap(j - 1, j);
+        while j > 0 && order(&values[j - 1], &values[i]).is_gt() {
             j -= 1;
+        }
+        if j < i {
+            values[j..=i].rotate_right(1);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::FixedPoint;
+    use alloc::vec::Vec;
+    use proptest::prelude::*;
+    use scumble_geometry::FillRule;
+
+    /// What a sink hears of each pixel.
+    #[derive(Default, PartialEq, Debug)]
+    struct Areas(Vec<(i32, i32, f32)>);
+
+    impl AreaSink for Areas {
+        fn run(&mut self, y: i32, x0: i32, x1: i32) {
+            (x0..x1).for_each(|x| self.pixel(x, y, 1.0));
+        }
+        fn pixel(&mut self, x: i32, y: i32, area: f32) {
+            self.0.push((x, y, area));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_short_way_gives_the_same_bits(
+            contours in prop::collection::vec(
+                prop::collection::vec((-600..5000i32, -200..2500i32), 3..9),
+                1..4,
+            ),
+            even_odd in any::<bool>(),
+            grid in 0..8u32,
+        ) {
+            let mut builder = Polygon::builder();
+            for contour in &contours {
+                contour
+                    .iter()
+                    .for_each(|p| builder.push(FixedPoint { x: p.0 >> grid << grid, y: p.1 >> grid << grid }));
+                builder.close();
+            }
+            let rule = if even_odd { FillRule::EvenOdd } else { FillRule::NonZero };
+            let Some(polygon) = builder.finish(rule) else { return Ok(()) };
+            for rect in [polygon.bounds(), IntRect::new(3, 0, 11, 8)] {
+                let rect = rect.intersect(&polygon.bounds());
+                if rect.is_empty() {
+                    continue;
+                }
+                let clipped = Clipped { polygon: &polygon, rect };
+                let mut scratch = PolygonScratch::default();
+                let (mut short, mut long) = (Areas::default(), Areas::default());
+                dispatch!(Level::new(), simd => {
+                    clipped.rasterize::<_, true>(simd, &mut scratch, &mut short);
+                    clipped.rasterize::<_, false>(simd, &mut scratch, &mut long);
+                });
+                prop_assert_eq!(short, long);
+            }
         }
     }
 }

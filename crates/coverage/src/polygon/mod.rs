@@ -3,6 +3,7 @@
 mod area;
 mod rows;
 mod samples;
+mod strips;
 
 pub(crate) use rows::PolygonScratch;
 

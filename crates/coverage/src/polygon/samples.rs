@@ -134,7 +134,7 @@ impl Strip<'_> {
     }
 
     /// The winding number of each sample at the left side of the clip.
-    fn start_row(&self, y: i32, rows: &Rows, winding: &mut [i32]) {
+    fn start_row(&self, y: i32, rows: &Rows<PolygonEdge>, winding: &mut [i32]) {
         winding.fill(rows.left);
         for &(height, change) in rows.steps() {
             for (w, o) in winding.iter_mut().zip(&self.pattern.lanes()[1]) {

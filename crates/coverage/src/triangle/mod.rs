@@ -2,6 +2,7 @@
 
 mod area;
 mod narrow;
+mod spans;
 mod tiled;
 mod wide;
 
@@ -39,6 +40,7 @@ impl Triangle {
         self.corners
     }
 
+    #[inline(always)]
     pub(crate) fn edges(&self) -> [Edge; 3] {
         let [p, q, r] = self.corners;
         [Edge::new(p, q), Edge::new(q, r), Edge::new(r, p)]

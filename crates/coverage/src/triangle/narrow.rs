@@ -1,18 +1,13 @@
 //! Blocks in 32 bits, sixteen lanes at a time.
 //!
-//! Two rows of eight pixels make one vector. Up to [`FEW`] samples are tested one after the other,
-//! for all sixteen pixels at once; with more, the pixels that an edge can cross are found first,
-//! and each of them tests its samples side by side.
+//! Two rows of eight pixels make one vector. The pixels that an edge can cross are found first, and
+//! each of them tests its samples side by side.
 
 use super::tiled::Block;
 use crate::edge::Edge;
 use crate::{SampleMask, SamplePattern, Sink};
 use fearless_simd::{Simd, i32x16, prelude::*};
 use scumble_geometry::IntRect;
-
-/// Up to so many samples, a pass over the pixels per sample is quicker than one over the samples
-/// per pixel.
-const FEW: usize = 4;
 
 /// Edge values beyond this keep their sign over the whole block, so they can be cut to it.
 const LIMIT: i64 = (1 << 30) - 1;
@@ -53,28 +48,20 @@ impl<'a, S: Simd> Narrow<'a, S> {
         };
         let ramp = [ramp(0), ramp(1), ramp(2)];
         let [mut low, mut high] = [[0; 3]; 2];
-        if pattern.len() <= FEW {
-            for (s, o) in pattern.offsets().iter().enumerate() {
-                for k in 0..3 {
-                    offsets[k][s] = a[k] * i32::from(o[0]) + b[k] * i32::from(o[1]);
-                }
+        let [xs, ys] = pattern.lanes();
+        for k in 0..3 {
+            let (a, b) = (i32x16::splat(simd, a[k]), i32x16::splat(simd, b[k]));
+            for i in (0..pattern.len()).step_by(16) {
+                let v = lanes(simd, &xs[i..]) * a + lanes(simd, &ys[i..]) * b;
+                v.store_slice(&mut offsets[k][i..i + 16]);
             }
-        } else {
-            let [xs, ys] = pattern.lanes();
-            for k in 0..3 {
-                let (a, b) = (i32x16::splat(simd, a[k]), i32x16::splat(simd, b[k]));
-                for i in (0..pattern.len()).step_by(16) {
-                    let v = lanes(simd, &xs[i..]) * a + lanes(simd, &ys[i..]) * b;
-                    v.store_slice(&mut offsets[k][i..i + 16]);
-                }
-            }
-            let [first, last] = pattern.extent().map(|p| p.map(i32::from));
-            for k in 0..3 {
-                let (left, right) = (a[k] * first[0], a[k] * last[0]);
-                let (top, bottom) = (b[k] * first[1], b[k] * last[1]);
-                low[k] = left.min(right) + top.min(bottom);
-                high[k] = left.max(right) + top.max(bottom);
-            }
+        }
+        let [first, last] = pattern.extent().map(|p| p.map(i32::from));
+        for k in 0..3 {
+            let (left, right) = (a[k] * first[0], a[k] * last[0]);
+            let (top, bottom) = (b[k] * first[1], b[k] * last[1]);
+            low[k] = left.min(right) + top.min(bottom);
+            high[k] = left.max(right) + top.max(bottom);
         }
         Self { simd, edges, pattern, offsets, low, high, step_x, step_y, ramp }
     }
@@ -105,33 +92,9 @@ impl<'a, S: Simd> Narrow<'a, S> {
         SampleMask(mask & self.pattern.full_mask().0)
     }
 
-    /// Two rows with few samples: one test per sample.
+    /// Two rows: a test of the pixels, then one for each pixel on an edge.
     #[inline(always)]
-    fn rows_of_few(&self, v: &[i32x16<S>; 3], at: Rows, sink: &mut impl Sink) {
-        let samples = self.pattern.len();
-        let mut bits = [0u32; FEW];
-        let (mut full, mut any) = (at.valid, 0);
-        for (s, bits) in bits.iter_mut().enumerate().take(samples) {
-            *bits = self.test(v, [0, 1, 2].map(|k| self.offsets[k][s])) & at.valid;
-            full &= *bits;
-            any |= *bits;
-        }
-        at.runs(full, sink);
-        if samples > 1 {
-            let mut partial = any & !full;
-            while let Some((i, x, y)) = at.next_pixel(&mut partial) {
-                let mut mask = 0;
-                for (s, bits) in bits.iter().enumerate() {
-                    mask |= u64::from(bits >> i & 1) << s;
-                }
-                sink.pixel(x, y, SampleMask(mask));
-            }
-        }
-    }
-
-    /// Two rows with many samples: a test of the pixels, then one for each pixel on an edge.
-    #[inline(always)]
-    fn rows_of_many(&self, v: &[i32x16<S>; 3], first: [i32; 3], at: Rows, sink: &mut impl Sink) {
+    fn rows(&self, v: &[i32x16<S>; 3], first: [i32; 3], at: Rows, sink: &mut impl Sink) {
         let all = self.pattern.full_mask();
         let any = self.test(v, self.high) & at.valid;
         if any == 0 {
@@ -165,11 +128,7 @@ impl<S: Simd> Block for Narrow<'_, S> {
             let at = Rows { x: rect.x0, y, valid };
             let v = |k: usize| self.ramp[k] + i32x16::splat(self.simd, first[k]);
             let v = [v(0), v(1), v(2)];
-            if self.pattern.len() <= FEW {
-                self.rows_of_few(&v, at, sink);
-            } else {
-                self.rows_of_many(&v, first, at, sink);
-            }
+            self.rows(&v, first, at, sink);
             first = [0, 1, 2].map(|k| first[k] + 2 * self.step_y[k]);
             y += 2;
         }

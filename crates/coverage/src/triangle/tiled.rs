@@ -1,4 +1,5 @@
-//! Tiled traversal: edge functions over blocks of 8 × 8 pixels.
+//! Tiled traversal: edge functions over blocks of 8 × 8 pixels. (With few samples there is less to
+//! test than blocks save, and [`spans`] finds the ends of rows.)
 //!
 //! The blocks of one band of eight rows that a triangle touches lie side by side, and so do those
 //! that it fills. Both ranges come from a division per edge, so the middle is handed on as one
@@ -6,6 +7,7 @@
 
 use super::Triangle;
 use super::narrow::Narrow;
+use super::spans;
 use super::wide::Wide;
 use crate::edge::Edge;
 use crate::{SampleMask, SamplePattern, Sink};
@@ -62,6 +64,9 @@ impl Triangle {
         sink: &mut impl Sink,
     ) {
         let edges = self.edges();
+        if pattern.len() <= spans::FEW {
+            return spans::rasterize(simd, &edges, region, pattern, sink);
+        }
         if edges.iter().all(|e| e.a.abs() + e.b.abs() <= NARROW) {
             walk(&Narrow::new(simd, &edges, pattern, &mut scratch.narrow), &edges, region, sink);
         } else {

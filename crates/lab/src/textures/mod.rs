@@ -28,3 +28,8 @@ pub(crate) fn all() -> Vec<(&'static str, Canvas)> {
 pub(crate) fn emblem() -> Canvas {
     checker::draw_emblem()
 }
+
+/// The map of the world.
+pub(crate) fn world() -> scumble_pixel::Image<[u8; 4]> {
+    world::draw().into_image()
+}

@@ -1,0 +1,146 @@
+//! What becomes of the samples that a primitive covers: colours, or the number of what is seen.
+
+use crate::paint::Paint;
+use crate::tile::Job;
+use scumble_coverage::{SampleMask, SamplePattern, Sink};
+use scumble_framebuffer::{Tile, Visibility};
+use scumble_geometry::{DVec2, IntRect};
+use scumble_pixel::Premul;
+
+/// A place in a tile, from its top left pixel.
+fn local(origin: (i32, i32), x: i32, y: i32) -> (u32, u32) {
+    (x.abs_diff(origin.0), y.abs_diff(origin.1))
+}
+
+/// Writes down that an opaque primitive is seen.
+pub(crate) struct Stamp<'a> {
+    pub(crate) tile: &'a mut Visibility,
+    /// The tile's top left pixel.
+    pub(crate) origin: (i32, i32),
+    /// What stands for the primitive.
+    pub(crate) key: u32,
+}
+
+impl Sink for Stamp<'_> {
+    #[inline]
+    fn block(&mut self, rect: IntRect) {
+        let (x, y) = local(self.origin, rect.x0, rect.y0);
+        self.tile.fill_block(x, y, rect.width(), rect.height(), self.key);
+    }
+
+    #[inline]
+    fn run(&mut self, y: i32, x0: i32, x1: i32) {
+        let (x, y) = local(self.origin, x0, y);
+        self.tile.fill_run(x, y, x1.abs_diff(x0), self.key);
+    }
+
+    #[inline]
+    fn pixel(&mut self, x: i32, y: i32, mask: SampleMask) {
+        let (x, y) = local(self.origin, x, y);
+        self.tile.cover(x, y, mask.0, self.key);
+    }
+}
+
+/// Colours what a primitive covers.
+pub(crate) struct Painter<'a> {
+    pub(crate) job: &'a Job<'a>,
+    pub(crate) paint: &'a Paint,
+    pub(crate) tile: &'a mut Tile,
+    /// The tile's top left pixel.
+    pub(crate) origin: (i32, i32),
+    pub(crate) colors: &'a mut Vec<Premul>,
+}
+
+impl Painter<'_> {
+    fn local(&self, x: i32, y: i32) -> (u32, u32) {
+        local(self.origin, x, y)
+    }
+
+    fn pattern(&self) -> &SamplePattern {
+        &self.job.settings.pattern
+    }
+
+    /// Whether colours are evaluated sample by sample. One colour need not be.
+    fn per_sample(&self) -> bool {
+        self.job.settings.per_sample() && !matches!(self.paint, Paint::Solid(_))
+    }
+
+    /// Evaluates and blends the samples of a mask, each at its own position.
+    fn samples(&mut self, x: i32, y: i32, mask: u64) {
+        let surfaces = &self.job.plan.surfaces;
+        let share = 1.0 / (self.pattern().len() as f64).sqrt();
+        self.colors.clear();
+        for (i, &offset) in self.job.settings.pattern.offsets().iter().enumerate() {
+            if mask >> i & 1 == 1 {
+                self.colors.push(self.paint.sample(surfaces, position(x, y, offset), share));
+            }
+        }
+        let (lx, ly) = self.local(x, y);
+        self.tile.blend_samples(lx, ly, mask, self.colors);
+    }
+}
+
+impl Sink for Painter<'_> {
+    fn block(&mut self, rect: IntRect) {
+        if let Paint::Solid(color) = self.paint {
+            let (x, y) = self.local(rect.x0, rect.y0);
+            return self.tile.fill_block(x, y, rect.width(), rect.height(), *color);
+        }
+        for y in rect.y0..rect.y1 {
+            self.run(y, rect.x0, rect.x1);
+        }
+    }
+
+    fn run(&mut self, y: i32, x0: i32, x1: i32) {
+        let (x, local_y) = self.local(x0, y);
+        if let Paint::Solid(color) = self.paint {
+            return self.tile.fill_block(x, local_y, x1.abs_diff(x0), 1, *color);
+        }
+        if self.per_sample() {
+            let all = self.pattern().full_mask().0;
+            for x in x0..x1 {
+                self.samples(x, y, all);
+            }
+            return;
+        }
+        self.colors.clear();
+        self.colors.resize(x1.abs_diff(x0) as usize, Premul::TRANSPARENT);
+        self.paint.row(&self.job.plan.surfaces, centre(x0, y), self.colors);
+        self.tile.blend_run(x, local_y, self.colors);
+    }
+
+    fn pixel(&mut self, x: i32, y: i32, mask: SampleMask) {
+        if self.per_sample() {
+            return self.samples(x, y, mask.0);
+        }
+        let color = match self.paint {
+            Paint::Solid(color) => *color,
+            paint => {
+                let fallback = || centroid(x, y, self.pattern(), mask);
+                paint.at(&self.job.plan.surfaces, centre(x, y), fallback)
+            }
+        };
+        let (lx, ly) = self.local(x, y);
+        self.tile.blend_masked(lx, ly, mask.0, color);
+    }
+}
+
+pub(crate) fn centre(x: i32, y: i32) -> DVec2 {
+    DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)
+}
+
+fn position(x: i32, y: i32, offset: [u8; 2]) -> DVec2 {
+    let [dx, dy] = offset.map(|v| f64::from(v) / 256.0);
+    DVec2::new(f64::from(x) + dx, f64::from(y) + dy)
+}
+
+/// The mean of the covered samples.
+fn centroid(x: i32, y: i32, pattern: &SamplePattern, mask: SampleMask) -> DVec2 {
+    let mut sum = DVec2::ZERO;
+    for (i, &offset) in pattern.offsets().iter().enumerate() {
+        if mask.0 >> i & 1 == 1 {
+            sum += position(x, y, offset);
+        }
+    }
+    sum / f64::from(mask.count())
+}
