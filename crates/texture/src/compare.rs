@@ -1,8 +1,10 @@
 //! What others do, for comparison: not for use.
 //!
-//! [`PixelFilter::Classic`](crate::PixelFilter::Classic) is another of them.
+//! [`PixelFilter::Classic`] is another of them.
 
 use crate::math::{ceil, sqrt};
+#[cfg(doc)]
+use crate::Probes;
 use crate::{Footprint, LevelMode, PixelFilter, Sampler, Texture};
 use scumble_geometry::Matrix2;
 use scumble_pixel::Premul;
@@ -19,7 +21,7 @@ pub fn trilinear(t: &Texture, f: &Footprint) -> Premul {
 /// level log₂(ρmax/N). `most` is usually 16.
 ///
 /// The columns are not the ellipse's axes unless they are orthogonal, and equal weights over one pixel
-/// are a box: both show beside [`Probes`](crate::Probes).
+/// are a box: both show beside [`Probes`].
 #[must_use]
 pub fn vulkan_anisotropic(t: &Texture, f: &Footprint, most: u32) -> Premul {
     let Matrix2 { a, b, c, d } = f.jacobian;
