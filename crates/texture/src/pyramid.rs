@@ -6,11 +6,12 @@
 
 use crate::Simd;
 use crate::decimate::Taps;
+use crate::engine::{Scalar, Vector};
 use crate::level::Level;
 use crate::texel::{self, ONE, Texel};
 use crate::{Decimation, Wrap};
 use alloc::vec;
-use fearless_simd::dispatch;
+use fearless_simd::{dispatch, f32x8, prelude::*};
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 use scumble_pixel::srgb::decode8;
@@ -120,10 +121,7 @@ pub(crate) fn halve(source: &impl Rows, to: &mut Level, filter: Decimation, wrap
     let halver = Halver::new(source, filter, wrap);
     let stride = to.stride;
     let block = |(i, out): (usize, &mut [Texel])| {
-        compiled(
-            #[inline(always)]
-            || halver.run(i * BLOCK, out, stride, |_, _| ()),
-        );
+        halver.make(i * BLOCK, out, stride, (&mut [], 0));
     };
     #[cfg(feature = "parallel")]
     to.texels.par_chunks_mut(BLOCK * stride).enumerate().for_each(block);
@@ -142,25 +140,7 @@ pub(crate) fn store_and_halve(
     let halver = Halver::new(source, filter, wrap);
     let (stored, stride) = (base.stride, to.stride);
     let block = |(i, (base, out)): (usize, (&mut [Texel], &mut [Texel]))| {
-        compiled(
-            #[inline(always)]
-            || {
-                let first = i * BLOCK;
-                halver.run(
-                    first,
-                    out,
-                    stride,
-                    #[inline(always)]
-                    |y, line| {
-                        // Rows of the neighbours are theirs to store.
-                        let start = y.checked_sub(2 * first).map(|y| y * stored);
-                        if let Some(row) = start.and_then(|i| base.get_mut(i..i + stored)) {
-                            put(line, row);
-                        }
-                    },
-                );
-            },
-        );
+        halver.make(i * BLOCK, out, stride, (base, stored));
     };
     #[cfg(feature = "parallel")]
     base.texels
@@ -204,15 +184,26 @@ impl<'a, R: Rows> Halver<'a, R> {
         Self { source, columns, rows }
     }
 
-    /// Rows of the next level from `first` on. `seen` gets every row of the source that is read, some
-    /// of them twice.
+    /// Rows of the next level from `first` on, compiled for the best instructions there are. Rows of the
+    /// source from twice that on are stored in `base`, as far as it goes; its second number is their
+    /// distance.
+    fn make(&self, first: usize, out: &mut [Texel], stride: usize, base: (&mut [Texel], usize)) {
+        match Simd::best().0 {
+            None => self.run(Scalar, first, out, stride, base),
+            Some(level) => {
+                dispatch!(level, simd => self.run(Vector(simd), first, out, stride, base));
+            }
+        }
+    }
+
     #[inline(always)]
     fn run(
         &self,
+        lanes: impl Lanes,
         first: usize,
         out: &mut [Texel],
         stride: usize,
-        mut seen: impl FnMut(usize, &[[f32; 4]]),
+        (base, stored): (&mut [Texel], usize),
     ) {
         let (columns, rows) = (&self.columns, &self.rows);
         let [left, right] = columns.margins();
@@ -227,11 +218,15 @@ impl<'a, R: Rows> Halver<'a, R> {
             for j in from.max(next)..from + rows.count as i32 {
                 let y = rows.resolve(j);
                 self.source.read(y, &mut line[left..left + width]);
-                seen(y, &line[left..left + width]);
+                // Rows of the neighbours are theirs to store.
+                let start = y.checked_sub(2 * first).map(|y| y * stored);
+                if let Some(row) = start.and_then(|i| base.get_mut(i..i + stored)) {
+                    put(&line[left..left + width], row);
+                }
                 for k in (0..left).chain(left + width..left + width + right) {
                     line[k] = line[left + columns.resolve(k as i32 - left as i32)];
                 }
-                along(columns, left, &line, &mut kept[place(j, rows.count)]);
+                along(lanes, columns, left, &line, &mut kept[place(j, rows.count)]);
             }
             next = from + rows.count as i32;
             let row = |k: usize| &kept[place(from + k as i32, rows.count)][..];
@@ -257,15 +252,15 @@ fn place(j: i32, count: usize) -> usize {
 
 /// Σ wₖ·tₖ along a row that begins with `left` texels of its margin.
 #[inline(always)]
-fn along(taps: &Taps, left: usize, line: &[[f32; 4]], out: &mut [[f32; 4]]) {
+fn along(lanes: impl Lanes, taps: &Taps, left: usize, line: &[[f32; 4]], out: &mut [[f32; 4]]) {
     if taps.is_even() {
         // One set of weights, two texels from output to output, beginning with the margin.
         let weights = taps.weights(0);
         if let Ok(weights) = weights.try_into() {
-            return along_pairs::<4>(pairs::<8, 4>(weights), line, out);
+            return along_pairs(lanes, &pairs::<8, 4>(weights), line, out);
         }
         if let Ok(weights) = weights.try_into() {
-            return along_pairs::<1>(pairs::<2, 1>(weights), line, out);
+            return along_pairs(lanes, &pairs::<2, 1>(weights), line, out);
         }
     }
     for (i, out) in out.iter_mut().enumerate() {
@@ -289,24 +284,61 @@ fn pairs<const N: usize, const PAIRS: usize>(weights: &[f32; N]) -> [[f32; 8]; P
     pairs
 }
 
-/// Two texels at a time: the odd and the even ones are summed apart.
+/// Two texels at a time.
 #[inline(always)]
 fn along_pairs<const PAIRS: usize>(
-    weights: [[f32; 8]; PAIRS],
+    lanes: impl Lanes,
+    weights: &[[f32; 8]; PAIRS],
     line: &[[f32; 4]],
     out: &mut [[f32; 4]],
 ) {
     let (line, _) = line.as_chunks::<2>();
     for (out, run) in out.iter_mut().zip(line.windows(PAIRS)) {
+        *out = lanes.sum(weights, run);
+    }
+}
+
+/// The sum along a run of pairs of texels, in scalar code or in vectors: the same bits from each.
+trait Lanes: Copy {
+    /// Σ wₖ·tₖ, odd and even texels apart and then together.
+    fn sum<const PAIRS: usize>(
+        self,
+        weights: &[[f32; 8]; PAIRS],
+        run: &[[[f32; 4]; 2]],
+    ) -> [f32; 4];
+}
+
+impl Lanes for Scalar {
+    #[inline(always)]
+    fn sum<const PAIRS: usize>(
+        self,
+        weights: &[[f32; 8]; PAIRS],
+        run: &[[[f32; 4]; 2]],
+    ) -> [f32; 4] {
         let mut sum = [0.0; 8];
         for (w, pair) in weights.iter().zip(run) {
             for ((sum, w), t) in sum.iter_mut().zip(w).zip(pair.as_flattened()) {
                 *sum += w * t;
             }
         }
-        for c in 0..4 {
-            out[c] = sum[c] + sum[c + 4];
+        core::array::from_fn(|c| sum[c] + sum[c + 4])
+    }
+}
+
+impl<S: fearless_simd::Simd> Lanes for Vector<S> {
+    #[inline(always)]
+    fn sum<const PAIRS: usize>(
+        self,
+        weights: &[[f32; 8]; PAIRS],
+        run: &[[[f32; 4]; 2]],
+    ) -> [f32; 4] {
+        let mut sum = f32x8::splat(self.0, 0.0);
+        for (w, pair) in weights.iter().zip(run) {
+            let pair = f32x8::from_slice(self.0, pair.as_flattened());
+            sum += f32x8::load_array_ref(self.0, w) * pair;
         }
+        let (even, odd) = sum.split();
+        (even + odd).to_array()
     }
 }
 
