@@ -2,9 +2,9 @@
 //!
 //! [`PixelFilter::Classic`] is another of them.
 
-use crate::math::{ceil, sqrt};
 #[cfg(doc)]
 use crate::Probes;
+use crate::math::{ceil, sqrt};
 use crate::{Footprint, LevelMode, PixelFilter, Sampler, Texture};
 use scumble_geometry::Matrix2;
 use scumble_pixel::Premul;

@@ -32,6 +32,8 @@
 //! | sampler | worst of four images, dB | texels read |
 //! |---|---|---|
 //! | bilinear, two levels (trilinear) | 24 / 29 / 29 | 5 |
+//! | [`Sampler::CLASSIC`]: the method of 2009, for comparison | 26 / 31 / 29 | |
+//! | [`PixelFilter::Probes`], as hardware does it but along the true axis | 40 / 33 / 29 | |
 //! | [`Sampler::FAST`]: previews, video | 34 / 40 / 30 | 42 |
 //! | [`Sampler::DEFAULT`]: everything | 36 / 40 / 50 | 74 |
 //! | [`Sampler::HIGH`]: print, masters | 47 / 52 / 50 | 108 |
@@ -46,6 +48,19 @@
 //! which is worth 11 to 17 dB. Toward the horizon all presets do far better than the figure. A preset is
 //! as good as its worst scale, just where the ellipse falls on a level's boundary: on text, 31, 33, 42
 //! and 66 dB.
+//!
+//! # Beside the presets
+//!
+//! - [`Sampler::kernel`]: another pixel filter than the Gaussian, one's own included ([`RadialFilter`]).
+//!   All but the Gaussian are read texel by texel in scalar code.
+//! - [`Sampler::magnify`]: what is made of a texture that is magnified, from soft to sharp, without a
+//!   seam where it begins to be minified.
+//! - [`PixelFilter::Separable`]: plain interpolation, for what is only ever magnified.
+//! - [`Probes`]: anisotropic filtering of anything that can average a round spot; [`procedural`] has
+//!   sources that are functions, and the ground grid of 3-D viewports.
+//! - [`Texels`]: images of one to four channels, in 8 and 16 bits, half floats and floats, in foreign
+//!   memory, with the alpha's kind in the type.
+//! - [`compare`] and [`Sampler::CLASSIC`]: what others do.
 //!
 //! # Cost
 //!

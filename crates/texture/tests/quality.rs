@@ -158,7 +158,16 @@ fn hold(name: &str, t: &Texture, bars: [[f64; 4]; 3]) {
         let of = |s: &Sampler| psnr(t, map, &places, &truth, s);
         let found = PRESETS.map(|(_, preset)| of(&preset));
         let trilinear = of(&Sampler::DEFAULT.with(PixelFilter::Bilinear, LevelMode::Linear));
-        println!("{name:8} {warp:9} trilinear {trilinear:.1}; presets {found:.1?}");
+        let probes = of(&Sampler::DEFAULT.with(PixelFilter::Probes, LevelMode::Auto));
+        let classic = of(&Sampler::CLASSIC);
+        println!(
+            "{name:8} {warp:9} trilinear {trilinear:.1}, probes {probes:.1}, classic {classic:.1}; \
+             presets {found:.1?}"
+        );
+        assert!(
+            trilinear < probes + 0.1 && classic < found[1],
+            "{name}, {warp}: {probes} {classic}"
+        );
         for (((preset, _), found), bar) in PRESETS.iter().zip(found).zip(bars) {
             assert!(found >= bar, "{name}, {warp}, {preset}: {found:.1} dB, less than {bar}");
         }
