@@ -4,7 +4,7 @@ mod choice;
 mod value;
 
 pub(crate) use choice::{
-    Interpolate, Level, Pattern, Pixel, Profile, Shade, Space, name as choice_name,
+    Antialias, Interpolate, Level, Pattern, Pixel, Profile, Shade, Space, name as choice_name,
 };
 pub(crate) use value::{Background, Crop};
 
@@ -164,7 +164,12 @@ pub(crate) struct Size {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Quality")]
 pub(crate) struct Quality {
-    /// Samples a pixel along edges: 1, 2, 4, 8, 9 or 16 [default: 16; course: 1]
+    /// How edges are made smooth: all primitives together by samples, without seams, or each for
+    /// itself by its exact area [default: samples]
+    #[arg(long, value_enum)]
+    pub(crate) aa: Option<Antialias>,
+
+    /// Samples a pixel along edges: 1, 2, 4, 8, 9, 16, 25, 36, 49 or 64 [default: 16; course: 1]
     #[arg(long, value_name = "N", value_parser = value::samples)]
     pub(crate) samples: Option<u32>,
 

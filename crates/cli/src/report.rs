@@ -87,6 +87,7 @@ impl Report<'_> {
             "crop": self.canvas.crop.map(|c| {
                 json!({ "x": c.x, "y": c.y, "width": c.width, "height": c.height })
             }),
+            "aa": choice_name(self.choices.aa),
             "samples": self.choices.samples,
             "pattern": choice_name(self.choices.pattern),
             "shade": choice_name(self.choices.shade),
@@ -122,7 +123,7 @@ fn milliseconds(time: Duration) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::args::{Crop, Interpolate, Level, Pattern, Pixel, Shade, Space};
+    use crate::args::{Antialias, Crop, Interpolate, Level, Pattern, Pixel, Shade, Space};
 
     #[test]
     fn a_place_is_said_as_compilers_say_it() {
@@ -143,6 +144,7 @@ mod tests {
                 crop: Some(Crop { x: 1, y: 2, width: 3, height: 4 }),
             },
             choices: Choices {
+                aa: Antialias::Samples,
                 samples: 4,
                 pattern: Pattern::Grid,
                 shade: Shade::Pixel,

@@ -1,7 +1,7 @@
 //! From words on the command line to the renderer's settings.
 
 use crate::args::{
-    Background, Color, Interpolate, Level, Pattern, Pixel, Quality, Render, Shade, Space,
+    Antialias, Background, Color, Interpolate, Level, Pattern, Pixel, Quality, Render, Shade, Space,
 };
 use crate::error::Failure;
 use crate::size::Canvas;
@@ -29,6 +29,7 @@ const COURSE: Defaults =
 /// Every choice that was made, by the user or for them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Choices {
+    pub(crate) aa: Antialias,
     pub(crate) samples: u32,
     pub(crate) pattern: Pattern,
     pub(crate) shade: Shade,
@@ -52,6 +53,7 @@ impl Choices {
         // Trilinear is two levels by its name.
         let level = if pixel == Pixel::Trilinear { Level::Linear } else { defaults.level };
         Ok(Self {
+            aa: quality.aa.unwrap_or(Antialias::Samples),
             samples,
             pattern: pattern(quality.pattern, defaults.pattern, samples)?,
             shade: quality.shade.unwrap_or(Shade::Pixel),
@@ -100,6 +102,10 @@ impl Choices {
     pub(crate) fn settings(&self, canvas: &Canvas, options: &Render) -> Result<Settings, Failure> {
         let mut settings = Settings::new(canvas.width, canvas.height);
         settings.pattern = self.sample_pattern()?;
+        settings.antialias = match self.aa {
+            Antialias::Samples => scumble::Antialias::Samples,
+            Antialias::Area => scumble::Antialias::Area,
+        };
         settings.crop = crop(canvas)?;
         settings.shading = match self.shade {
             Shade::Pixel => Shading::Pixel,
@@ -127,13 +133,13 @@ impl Choices {
 
 /// The pattern that was asked for; else the profile's, or the one that exists for so many samples.
 fn pattern(asked: Option<Pattern>, default: Pattern, samples: u32) -> Result<Pattern, Failure> {
-    let square = matches!(samples, 1 | 4 | 9 | 16);
+    let square = samples.isqrt().pow(2) == samples;
     match asked {
         Some(Pattern::Grid) if !square => Err(Failure::Usage(format!(
-            "--pattern grid: {samples} samples make no square grid; 1, 4, 9 and 16 do"
+            "--pattern grid: {samples} samples make no square grid; 1, 4, 9, 16, 25, 36, 49 and 64 do"
         ))),
-        // Hardware has no nine; the grid is the one pattern of that number.
-        _ if samples == 9 => Ok(Pattern::Grid),
+        // Hardware has no nine and stops at sixteen; the grid is the one pattern of those numbers.
+        _ if samples == 9 || samples > 16 => Ok(Pattern::Grid),
         Some(pattern) => Ok(pattern),
         None if !square => Ok(Pattern::Standard),
         None => Ok(default),
@@ -202,7 +208,7 @@ mod tests {
     #[test]
     fn every_count_has_a_pattern_in_every_profile() {
         for profile in [Profile::Svg, Profile::Course] {
-            for samples in [1, 2, 4, 8, 9, 16] {
+            for samples in [1, 2, 4, 8, 9, 16, 25, 36, 49, 64] {
                 let settings = settings(&format!("--samples {samples}"), profile);
                 assert_eq!(settings.pattern.len(), samples);
             }

@@ -114,6 +114,23 @@ impl Tile {
         }
     }
 
+    /// Blends parts of one colour, 0 to 1 of it, over every sample of the pixels from (`x`, `y`) to
+    /// the right: what a shape that is antialiased by itself covers of each.
+    ///
+    /// 0 changes nothing and 1 of an opaque colour replaces what was there, both to the bit.
+    pub fn blend_areas(&mut self, x: u32, y: u32, areas: &[f32], color: Premul) {
+        let span = self.span(x, y, areas.len());
+        if self.is_uniform(span.clone()) {
+            for (below, &area) in self.colors[span].iter_mut().zip(areas) {
+                *below = color.scaled(area).over(*below);
+            }
+        } else {
+            for (i, &area) in span.zip(areas) {
+                self.blend_pixel(i, color.scaled(area));
+            }
+        }
+    }
+
     /// Blends one colour over those samples of a pixel that are in `mask`.
     pub fn blend_masked(&mut self, x: u32, y: u32, mask: u64, color: Premul) {
         let Some(i) = self.index(x, y) else { return };
@@ -184,7 +201,7 @@ impl Tile {
 
     /// Whether no pixel of the span is split.
     fn is_uniform(&self, span: Range<usize>) -> bool {
-        Slot::all_uniform(&self.slots[span])
+        self.samples == 1 || Slot::all_uniform(&self.slots[span])
     }
 
     fn index(&self, x: u32, y: u32) -> Option<usize> {

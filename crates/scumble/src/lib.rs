@@ -31,7 +31,7 @@ pub use scumble_pixel as pixel;
 pub use scumble_scene as scene;
 pub use scumble_texture as texture;
 pub use settings::{
-    Background, DEFAULT_MAX_MEMORY, DEFAULT_SAMPLES, DEFAULT_TILE_SIZE, Interpolation, Settings,
-    Shading,
+    Antialias, Background, DEFAULT_MAX_MEMORY, DEFAULT_SAMPLES, DEFAULT_TILE_SIZE, Interpolation,
+    Settings, Shading,
 };
 pub use sink::{ImageSink, Sink};

@@ -92,6 +92,19 @@ impl Paint {
         }
     }
 
+    /// The corner of a pixel that lies farthest before the eye: in a pixel on the horizon, part of
+    /// what is covered.
+    pub(crate) fn nearest_corner(&self, x: i32, y: i32) -> DVec2 {
+        let corners = [(0, 0), (1, 0), (0, 1), (1, 1)]
+            .map(|(dx, dy)| DVec2::new(f64::from(x + dx), f64::from(y + dy)));
+        let height = |p: &DVec2| match self {
+            Self::Textured(textured) => textured.map.project_homogeneous(*p).z,
+            _ => 0.0,
+        };
+        let farther = |a: DVec2, b: DVec2| if height(&b) > height(&a) { b } else { a };
+        corners.into_iter().fold(corners[0], farther)
+    }
+
     /// The colours at `start`, `start` + (1, 0), and so on.
     pub(crate) fn row(&self, surfaces: &[Option<Surface>], start: DVec2, out: &mut [Premul]) {
         match self {

@@ -2,7 +2,7 @@
 
 use crate::paint::Paint;
 use crate::tile::Job;
-use scumble_coverage::{SampleMask, SamplePattern, Sink};
+use scumble_coverage::{AreaSink, SampleMask, SamplePattern, Sink};
 use scumble_framebuffer::{Tile, Visibility};
 use scumble_geometry::{DVec2, IntRect};
 use scumble_pixel::Premul;
@@ -87,7 +87,7 @@ impl Sink for Painter<'_> {
             return self.tile.fill_block(x, y, rect.width(), rect.height(), *color);
         }
         for y in rect.y0..rect.y1 {
-            self.run(y, rect.x0, rect.x1);
+            Sink::run(self, y, rect.x0, rect.x1);
         }
     }
 
@@ -122,6 +122,52 @@ impl Sink for Painter<'_> {
         };
         let (lx, ly) = self.local(x, y);
         self.tile.blend_masked(lx, ly, mask.0, color);
+    }
+}
+
+impl AreaSink for Painter<'_> {
+    fn block(&mut self, rect: IntRect) {
+        Sink::block(self, rect);
+    }
+
+    fn run(&mut self, y: i32, x0: i32, x1: i32) {
+        Sink::run(self, y, x0, x1);
+    }
+
+    fn span(&mut self, y: i32, x0: i32, x1: i32, area: f32) {
+        if let Paint::Solid(color) = self.paint {
+            let (x, y) = self.local(x0, y);
+            return self.tile.fill_block(x, y, x1.abs_diff(x0), 1, color.scaled(area));
+        }
+        for x in x0..x1 {
+            self.row(y, x, &[area]);
+        }
+    }
+
+    fn row(&mut self, y: i32, x0: i32, areas: &[f32]) {
+        let (x, local_y) = self.local(x0, y);
+        if let Paint::Solid(color) = self.paint {
+            return self.tile.blend_areas(x, local_y, areas, *color);
+        }
+        let x1 = x0 + areas.len() as i32;
+        let surfaces = &self.job.plan.surfaces;
+        self.colors.clear();
+        self.colors.resize(areas.len(), Premul::TRANSPARENT);
+        if self.paint.sees_all(IntRect { x0, y0: y, x1, y1: y + 1 }) {
+            self.paint.row(surfaces, centre(x0, y), self.colors);
+        } else {
+            for (x, color) in (x0..x1).zip(&mut *self.colors) {
+                *color = self.paint.at(surfaces, centre(x, y), || self.paint.nearest_corner(x, y));
+            }
+        }
+        for (color, area) in self.colors.iter_mut().zip(areas) {
+            *color = color.scaled(*area);
+        }
+        self.tile.blend_run(x, local_y, self.colors);
+    }
+
+    fn pixel(&mut self, x: i32, y: i32, area: f32) {
+        self.row(y, x, &[area]);
     }
 }
 

@@ -1,7 +1,7 @@
 //! From a scene to primitives: transformed, flattened, snapped, with textures built.
 
 use crate::paint::{Paint, Textured};
-use crate::{Interpolation, Settings};
+use crate::{Antialias, Interpolation, Settings};
 use scumble_coverage::Shape;
 use scumble_geometry::{
     Affine, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Ramp, Rect, clip_segment,
@@ -150,7 +150,7 @@ impl Planner<'_> {
         self.plan.layers.push(layer);
     }
 
-    fn to_canvas(&mut self, transform: &Homography) -> Homography {
+    fn canvas_map(&mut self, transform: &Homography) -> Homography {
         match self.last {
             Some((last, to_canvas)) if last == *transform => to_canvas,
             _ => self.last.insert((*transform, self.view * *transform)).1,
@@ -168,6 +168,7 @@ impl Planner<'_> {
         }
         let effect = match &paint {
             _ if self.layer != 0 || !paint.is_opaque() => Effect::Blends,
+            _ if self.settings.antialias == Antialias::Area => Effect::Blends,
             Paint::Solid(_) => Effect::Flat,
             _ if self.settings.per_sample() => Effect::Blends,
             _ => Effect::Hides,
@@ -191,13 +192,13 @@ impl Planner<'_> {
     }
 
     fn fill(&mut self, fill: &Fill) {
-        let contours = fill.path.flatten(&self.to_canvas(&fill.transform), FLATNESS);
+        let contours = fill.path.flatten(&self.canvas_map(&fill.transform), FLATNESS);
         let paint = Paint::Solid(self.import(fill.color));
         self.push_contours(&contours, fill.rule, paint);
     }
 
     fn stroke(&mut self, stroke: &Stroke) {
-        let to_canvas = self.to_canvas(&stroke.transform);
+        let to_canvas = self.canvas_map(&stroke.transform);
         let outline =
             stroke.path.stroke(&stroke.style, FLATNESS / stroke.largest_scale(&to_canvas));
         let paint = Paint::Solid(self.import(stroke.color));
@@ -205,7 +206,7 @@ impl Planner<'_> {
     }
 
     fn gouraud(&mut self, triangle: &GouraudTriangle) {
-        let to_canvas = self.to_canvas(&triangle.transform);
+        let to_canvas = self.canvas_map(&triangle.transform);
         let corners = triangle.points.map(|p| to_canvas.project_homogeneous(p));
         let [a, b, c] = triangle.colors;
         let paint = if a == b && b == c {
@@ -222,7 +223,7 @@ impl Planner<'_> {
     }
 
     fn textured(&mut self, triangle: &TexturedTriangle) {
-        let to_canvas = self.to_canvas(&triangle.transform);
+        let to_canvas = self.canvas_map(&triangle.transform);
         let TexturedTriangle { points, uvs, image, opacity, .. } = *triangle;
         self.textured_corners(&to_canvas, points, uvs, image, opacity);
     }
@@ -246,7 +247,7 @@ impl Planner<'_> {
     }
 
     fn image(&mut self, quad: &ImageQuad) {
-        let to_canvas = self.to_canvas(&quad.transform);
+        let to_canvas = self.canvas_map(&quad.transform);
         if self.settings.interpolation == Interpolation::Affine && !to_canvas.is_affine() {
             let (corners, uvs) = (quad.rect.corners(), quad.source.corners());
             for half in [[0, 1, 2], [0, 2, 3]] {
@@ -276,7 +277,7 @@ impl Planner<'_> {
     }
 
     fn hairline(&mut self, line: &Hairline) {
-        let to_canvas = self.to_canvas(&line.transform);
+        let to_canvas = self.canvas_map(&line.transform);
         let ends = [line.from, line.to].map(|p| to_canvas.project_homogeneous(p));
         if let Some(ends) = clip_segment(ends, to_canvas.near_w()) {
             self.hairline_on_canvas(ends.map(divide), line.color);
@@ -286,7 +287,7 @@ impl Planner<'_> {
     /// One sample: a chain of pixels. More: a quad one pixel wide, antialiased like all else.
     fn hairline_on_canvas(&mut self, [a, b]: [DVec2; 2], color: Straight) {
         let paint = Paint::Solid(self.import(color));
-        if self.settings.pattern.len() > 1 {
+        if self.settings.antialias == Antialias::Area || self.settings.samples() > 1 {
             let shape = line_quad(a, b, 1.0)
                 .and_then(|quad| Shape::polygon([&quad[..]], FillRule::NonZero).ok().flatten());
             return self.push_shape(shape, paint);
@@ -303,7 +304,7 @@ impl Planner<'_> {
     }
 
     fn point(&mut self, point: &Point) {
-        let Some(p) = self.to_canvas(&point.transform).project(point.position) else { return };
+        let Some(p) = self.canvas_map(&point.transform).project(point.position) else { return };
         let (x, y) = (p.x.floor() as i32, p.y.floor() as i32);
         let bounds = IntRect::new(x, y, x.saturating_add(1), y.saturating_add(1));
         let paint = Paint::Solid(self.import(point.color));

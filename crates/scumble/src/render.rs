@@ -161,7 +161,7 @@ fn check_memory<E>(
     threads: usize,
     texture_bytes: usize,
 ) -> Result<(), RenderError<E>> {
-    let (side, samples) = (settings.tile_size, settings.pattern.len() as u32);
+    let (side, samples) = (settings.tile_size, settings.samples());
     let seen = Visibility::max_bytes(side, side, samples);
     let tile = seen + Tile::max_bytes(side, side, samples);
     let depth = plan.layers.iter().map(|layer| layer.depth).max().unwrap_or(1);

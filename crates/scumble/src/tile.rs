@@ -1,9 +1,9 @@
 //! One tile: replays its primitives in order, then resolves.
 
-use crate::Settings;
 use crate::paint::Paint;
 use crate::painter::{Painter, Stamp, centre};
 use crate::plan::{Draw, Effect, Form, Plan};
+use crate::{Antialias, Settings};
 use scumble_coverage::{Cover, Scratch, Sink, hairline};
 use scumble_framebuffer::{Palette, Tile, Visibility, encode_row};
 use scumble_geometry::IntRect;
@@ -173,7 +173,7 @@ impl Replay<'_> {
     /// Clears the tile at a depth of the stack.
     fn open(&mut self, depth: usize, color: Premul) {
         let (width, height) = (self.rect.width(), self.rect.height());
-        let samples = self.job.settings.pattern.len() as u32;
+        let samples = self.job.settings.samples();
         if self.visible {
             return self.work.seen.reset(width, height, samples, BACKGROUND);
         }
@@ -257,7 +257,12 @@ impl Replay<'_> {
         let Workspace { scratch, stack, colors, .. } = &mut *self.work;
         let tile = &mut stack[self.layers.len() - 1];
         let mut painter = Painter { job, paint: &draw.paint, tile, origin, colors };
-        cover(job, &draw.form, clip, scratch, &mut painter);
+        match &draw.form {
+            Form::Shape(shape) if job.settings.antialias == Antialias::Area => {
+                shape.rasterize_area(clip, scratch, &mut painter);
+            }
+            form => cover(job, form, clip, scratch, &mut painter),
+        }
     }
 }
 

@@ -9,7 +9,8 @@ use std::path::Path;
 const MAX_FILE: usize = 600;
 /// Lines of a function.
 const MAX_FUNCTION: usize = 80;
-/// Lines of the driver, all files without their tests: it composes, it has no logic of its own.
+/// Lines of code of the driver, all files without their tests: it composes, it has no logic of its
+/// own. Comments and empty lines do not count: what is explained does not get fatter by it.
 const MAX_DRIVER: usize = 1500;
 const DRIVER: &str = "crates/scumble/src/";
 
@@ -117,12 +118,17 @@ pub(super) fn driver_size(root: &Path, files: &[String]) -> Vec<Violation> {
         .iter()
         .filter(|file| file.starts_with(DRIVER) && file.ends_with(".rs") && !is_test_file(file))
         .filter_map(|file| std::fs::read_to_string(root.join(file)).ok())
-        .map(|content| test_lines(&code_only(&content)).iter().filter(|&&test| !test).count())
+        .map(|content| {
+            let code = code_only(&content);
+            let lines = code.lines().zip(test_lines(&code));
+            lines.filter(|(line, test)| !test && !line.trim().is_empty()).count()
+        })
         .sum();
     if total <= MAX_DRIVER {
         return Vec::new();
     }
-    let message = format!("the driver has {total} lines without tests; {MAX_DRIVER} are enough");
+    let message =
+        format!("the driver has {total} lines of code without tests; {MAX_DRIVER} are enough");
     vec![Violation::new(&format!("{DRIVER}lib.rs"), 0, message)]
 }
 

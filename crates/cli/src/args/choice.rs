@@ -18,8 +18,17 @@ pub(crate) enum Profile {
 pub(crate) enum Pattern {
     /// The positions of graphics hardware for 2, 4, 8 and 16; a grid for 9
     Standard,
-    /// A regular grid, for 1, 4, 9 and 16
+    /// A regular grid, for the square numbers
     Grid,
+}
+
+/// How edges are made smooth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Antialias {
+    /// By samples that belong to one primitive each: no seams
+    Samples,
+    /// By the exact area of each primitive for itself: 256 grey levels, and seams where two meet
+    Area,
 }
 
 /// How often textures and gradients are evaluated.

@@ -27,7 +27,7 @@ pub(crate) struct Crop {
 }
 
 /// Numbers of samples that have a pattern.
-const SAMPLE_COUNTS: [u32; 6] = [1, 2, 4, 8, 9, 16];
+const SAMPLE_COUNTS: [u32; 10] = [1, 2, 4, 8, 9, 16, 25, 36, 49, 64];
 
 /// More threads than any machine has cores; a larger number is a slip of the finger.
 const MAX_THREADS: usize = 4096;
@@ -86,7 +86,7 @@ pub(super) fn samples(text: &str) -> Result<u32, String> {
     if SAMPLE_COUNTS.contains(&value) {
         Ok(value)
     } else {
-        Err("not one of 1, 2, 4, 8, 9, 16".to_owned())
+        Err("not one of 1, 2, 4, 8, 9, 16, 25, 36, 49, 64".to_owned())
     }
 }
 

@@ -146,9 +146,8 @@ fn ends_of_rows<S: Simd, const N: usize>(
     let mut ends = [[zero, width]; N];
     for e in crossings {
         let down = rows * e.down;
-        for s in 0..N {
-            let v = down + e.at[s];
-            let [from, to] = &mut ends[s];
+        for ([from, to], &at) in ends.iter_mut().zip(&e.at) {
+            let v = down + at;
             match e.side {
                 Side::Left => *from = from.max(-e.steps(simd, v)),
                 Side::Right => *to = to.min(e.steps(simd, v) + one),

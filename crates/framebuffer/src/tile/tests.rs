@@ -136,6 +136,35 @@ const HEIGHT: u32 = 4;
 
 proptest! {
     #[test]
+    fn areas_are_parts_of_a_colour(
+        samples in 1..=16_u32,
+        masks in prop::collection::vec(any::<u64>(), 8),
+        areas in prop::collection::vec(
+            prop_oneof![Just(0.0_f32), Just(1.0), 0.0_f32..1.0], 0..10),
+        alpha in prop_oneof![Just(1.0_f32), 0.0_f32..1.0],
+        x in 0..9_u32,
+    ) {
+        let background = Straight([0.2, 0.9, 0.4, 0.7]).premultiply();
+        let color = Straight([0.8, 0.3, 0.6, alpha]).premultiply();
+        let mut tile = Tile::new();
+        tile.reset(8, 1, samples, background);
+        for (x, mask) in (0..).zip(masks) {
+            tile.blend_masked(x, 0, mask, Premul([0.1, 0.1, 0.1, 1.0]));
+        }
+        let mut by_pixel = tile.clone();
+        tile.blend_areas(x, 0, &areas, color);
+        for (x, &area) in (x..).zip(&areas) {
+            by_pixel.blend_run(x, 0, &[color.scaled(area)]);
+        }
+        let [mut found, mut expected] = [[Premul::TRANSPARENT; 8]; 2];
+        tile.resolve_row(0, &mut found);
+        by_pixel.resolve_row(0, &mut expected);
+        prop_assert_eq!(found, expected);
+    }
+}
+
+proptest! {
+    #[test]
     fn equals_the_naive_twin(samples in 1..=64_u32, background in colour(), ops in ops()) {
         let mut tile = Tile::new();
         tile.reset(WIDTH, HEIGHT, samples, background);

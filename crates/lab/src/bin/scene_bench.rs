@@ -122,7 +122,7 @@ fn settings(args: &Args, width: u32, height: u32) -> Result<Settings, Box<dyn Er
     let mut settings = Settings::new(width, height);
     match args.aa {
         Antialiasing::Samples => settings.pattern = pattern(args.msaa)?,
-        Antialiasing::Area => return Err("the driver has no antialiasing by area yet".into()),
+        Antialiasing::Area => settings.antialias = scumble::Antialias::Area,
     }
     settings.sampler = args.filter.sampler();
     settings.threads = args.threads;
