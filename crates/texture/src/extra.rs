@@ -64,8 +64,9 @@ impl Area {
             PixelFilter::Separable(kernel) => return Self::Separable(kernel),
             PixelFilter::Classic => return Self::Classic(Classic::new(s)),
             PixelFilter::Probes => {
-                // A cast takes a NaN for 0, and the row takes that for 1.
-                return Self::Probes((2.0 * s.max_eccentricity.min(512.0) - 1.0) as u32);
+                // In this order a NaN becomes 1.
+                let ratio = s.max_eccentricity.max(1.0);
+                return Self::Probes((2.0 * ratio.min(512.0) - 1.0) as u32);
             }
             _ => (),
         }

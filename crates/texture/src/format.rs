@@ -1,7 +1,7 @@
 //! Images in the formats that others keep them in.
 
 use crate::pyramid::Rows;
-use crate::texel::ONE;
+use crate::texel::{ONE, whole};
 use core::marker::PhantomData;
 use scumble_pixel::{ImageView, Premul, Straight, WorkingSpace, srgb};
 
@@ -259,7 +259,7 @@ impl<P: Channels, A: Alpha> Rows for Imported<'_, P, A> {
     #[inline(always)]
     fn read(&self, y: usize, out: &mut [[f32; 4]]) {
         for (out, pixel) in out.iter_mut().zip(self.texels.view.row(y)) {
-            *out = self.texels.import(*pixel, self.space).0.map(|v| v * ONE);
+            *out = self.texels.import(*pixel, self.space).0.map(|v| whole(v * ONE));
         }
     }
 }

@@ -81,14 +81,14 @@ impl Rows for Bytes<'_> {
             None => {
                 for (t, &[r, g, b, a]) in out.iter_mut().zip(row) {
                     let alpha = f32::from(a) * (ONE / (255.0 * 255.0));
-                    *t = [r, g, b, 255].map(|v| f32::from(v) * alpha);
+                    *t = [r, g, b, 255].map(|v| texel::whole(f32::from(v) * alpha));
                 }
             }
             Some(table) => {
                 for (t, &[r, g, b, a]) in out.iter_mut().zip(row) {
                     let alpha = f32::from(a) * (1.0 / 255.0);
                     let [r, g, b] = [r, g, b].map(|v| table[usize::from(v)]);
-                    *t = [r * alpha, g * alpha, b * alpha, ONE * alpha];
+                    *t = [r, g, b, ONE].map(|v| texel::whole(v * alpha));
                 }
             }
         }

@@ -11,14 +11,15 @@ pub enum PixelFilter {
     Bilinear,
     /// Interpolation by a sharper kernel: a filter of a place, like bilinear.
     Separable(Separable),
-    /// Trilinear probes in a row along the ellipse's major axis ([`Probes`]): at most
-    /// ⌈2a − 1⌉ for [`Sampler::max_eccentricity`] a. Better than hardware's anisotropic filter, and
-    /// cheaper than the ellipse where that is thin; but it aliases as trilinear does.
+    /// Trilinear probes in a row along the ellipse's major axis ([`Probes`]): at most ⌈2a − 1⌉ for
+    /// [`Sampler::max_eccentricity`] a, which counts up to 512 here. Far better than hardware's
+    /// anisotropic filter; across the row it blurs and aliases as trilinear does, and in scalar code it
+    /// is slower than the ellipse.
     Probes,
     /// The elliptical weighted average: [`Sampler::kernel`] projected into the texture.
     #[default]
     Ewa,
-    /// Enhanced EWA as Rutanen published it (2009), slow and a little less good:
+    /// Enhanced EWA as Rutanen published it (2009), slower and less good than the other:
     /// [`Sampler::CLASSIC`], for comparison.
     Classic,
 }

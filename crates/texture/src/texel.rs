@@ -31,6 +31,13 @@ pub(crate) fn round(v: f32) -> i16 {
     (v + ROUNDER).to_bits() as i16
 }
 
+/// A channel in steps brought to a whole number of them, as it will be stored: what a level is made of
+/// must be what is stored, or a constant that lies half way between two steps goes either way.
+#[inline(always)]
+pub(crate) fn whole(v: f32) -> f32 {
+    (v + ROUNDER) - ROUNDER
+}
+
 /// The colour in steps of a texel.
 #[inline(always)]
 pub(crate) fn steps(t: Texel) -> [f32; 4] {

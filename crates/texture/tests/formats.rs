@@ -208,3 +208,26 @@ fn an_image_and_its_view_are_alike() {
         assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() <= 3.0 * STEP));
     }
 }
+
+#[test]
+fn a_constant_between_two_steps_goes_one_way_in_every_level() {
+    // 206·203/255 of 64 steps is a hair below a half.
+    for (code, alpha) in (0..=255u8).map(|i| (i, 203)).chain((0..=255).map(|i| (206, i))) {
+        for space in SPACES {
+            let image = common::constant(4, 6, [code, 0, 255, alpha]);
+            let options = TextureOptions { space, ..Default::default() };
+            let own = Texels::straight(image.view());
+            for t in [Texture::new(image.view(), &options), Texture::from_texels(&own, &options)] {
+                let t = t.unwrap();
+                let first = t.level(0).unwrap().row(0)[0];
+                for l in 0..t.level_count() {
+                    assert!(
+                        t.level(l).unwrap().pixels().iter().all(|p| *p == first),
+                        "{code} {alpha} {space:?} {l} {:?} {first:?}",
+                        t.level(l).unwrap().pixels()
+                    );
+                }
+            }
+        }
+    }
+}
