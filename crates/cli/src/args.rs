@@ -10,6 +10,7 @@ pub(crate) use value::{Background, Crop};
 
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
+use scumble::texture::{Kernel, Magnify};
 use std::path::PathBuf;
 
 /// The name that means standard input or standard output.
@@ -180,16 +181,32 @@ pub(crate) struct Quality {
     #[arg(long, value_enum)]
     pub(crate) shade: Option<Shade>,
 
+    /// How well textures are filtered: `fast` for previews, `high` for print, `reference` for tests
+    /// and `classic`, the enhanced EWA of 2009, for comparison [default: default]
+    #[arg(long, value_name = "PRESET", value_parser = value::preset())]
+    pub(crate) quality: Option<&'static str>,
+
     /// How a texture is averaged within a level [default: ewa; course: nearest]
     #[arg(long, value_enum)]
     pub(crate) pixel: Option<Pixel>,
 
-    /// Which level of a texture's pyramid is read [default: auto; course: zero]
+    /// What EWA weighs texels by [default: the quality's; gaussian, and triangle for classic]
+    ///
+    /// All but the Gaussian are slower.
+    #[arg(long, value_parser = value::kernel())]
+    pub(crate) kernel: Option<Kernel>,
+
+    /// What EWA and probes make of a texture that is magnified: `none` is soft, `taps` is exact for
+    /// bilinear interpolation, the others are sharper [default: the quality's; none, and taps for high]
+    #[arg(long, value_name = "WAY", value_parser = value::magnify())]
+    pub(crate) magnify: Option<Magnify>,
+
+    /// Which level of a texture's pyramid is read [default: auto; course: zero; trilinear: linear]
     #[arg(long, value_enum)]
     pub(crate) level: Option<Level>,
 
     /// Ratio of a footprint's axes beyond which EWA blurs its shorter one: 1 to 1024, sharper and
-    /// slower as it grows [default: 32]
+    /// slower as it grows [default: the quality's; 32]
     #[arg(long, value_name = "RATIO", value_parser = value::ratio)]
     pub(crate) max_eccentricity: Option<f32>,
 

@@ -91,6 +91,7 @@ impl Report<'_> {
             "samples": self.choices.samples,
             "pattern": choice_name(self.choices.pattern),
             "shade": choice_name(self.choices.shade),
+            "quality": self.choices.quality,
             "pixel": choice_name(self.choices.pixel),
             "level": choice_name(self.choices.level),
             "max_eccentricity": self.max_eccentricity,
@@ -147,6 +148,7 @@ mod tests {
                 samples: 4,
                 pattern: Pattern::Grid,
                 shade: Shade::Pixel,
+                quality: "default",
                 pixel: Pixel::Ewa,
                 level: Level::Auto,
                 space: Space::Srgb,
@@ -170,6 +172,7 @@ mod tests {
             (Some(3), Some(30))
         );
         assert_eq!(value["pixel"], "ewa");
+        assert_eq!(value["quality"], "default");
         assert_eq!(value["parse_ms"], 1.5);
         assert_eq!(value["encode_ms"], 1000.0);
     }

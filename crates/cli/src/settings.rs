@@ -8,7 +8,7 @@ use crate::size::Canvas;
 use scumble::coverage::{CoverageError, SamplePattern};
 use scumble::geometry::IntRect;
 use scumble::pixel::{Straight, WorkingSpace};
-use scumble::texture::{LevelMode, PixelFilter};
+use scumble::texture::{LevelMode, PixelFilter, Sampler};
 use scumble::{Interpolation, Settings, Shading};
 use scumble_svg::Profile;
 
@@ -33,6 +33,8 @@ pub(crate) struct Choices {
     pub(crate) samples: u32,
     pub(crate) pattern: Pattern,
     pub(crate) shade: Shade,
+    /// The name of a preset of the filters.
+    pub(crate) quality: &'static str,
     pub(crate) pixel: Pixel,
     pub(crate) level: Level,
     pub(crate) space: Space,
@@ -47,13 +49,17 @@ impl Choices {
             Profile::Course => COURSE,
         };
         let samples = quality.samples.unwrap_or(defaults.samples);
+        let pixel = quality.pixel.unwrap_or(defaults.pixel);
+        // Trilinear is two levels by its name.
+        let level = if pixel == Pixel::Trilinear { Level::Linear } else { defaults.level };
         Ok(Self {
             aa: quality.aa.unwrap_or(Antialias::Samples),
             samples,
             pattern: pattern(quality.pattern, defaults.pattern, samples)?,
             shade: quality.shade.unwrap_or(Shade::Pixel),
-            pixel: quality.pixel.unwrap_or(defaults.pixel),
-            level: quality.level.unwrap_or(defaults.level),
+            quality: quality.quality.unwrap_or("default"),
+            pixel,
+            level: quality.level.unwrap_or(level),
             space: color.space.unwrap_or(Space::Srgb),
             interpolate: quality.interpolate.unwrap_or(Interpolate::Perspective),
         })
@@ -66,6 +72,30 @@ impl Choices {
             Pattern::Grid => SamplePattern::grid(samples),
         };
         made.map_err(|e| Failure::Usage(format!("--samples {samples}: {e}")))
+    }
+
+    /// The quality's filter, changed by what was chosen beside it.
+    fn sampler(&self, quality: &Quality) -> Sampler {
+        let mut sampler = Sampler::preset(self.quality).unwrap_or_default();
+        sampler.pixel = match self.pixel {
+            // The ellipse is what every preset has, each in its own way.
+            Pixel::Ewa => sampler.pixel,
+            Pixel::Probes => PixelFilter::Probes,
+            Pixel::Bilinear | Pixel::Trilinear => PixelFilter::Bilinear,
+            Pixel::Nearest => PixelFilter::Nearest,
+        };
+        sampler.level = match self.level {
+            Level::Auto => LevelMode::Auto,
+            Level::Zero => LevelMode::Zero,
+            Level::Nearest => LevelMode::Nearest,
+            Level::Linear => LevelMode::Linear,
+        };
+        Sampler {
+            kernel: quality.kernel.unwrap_or(sampler.kernel),
+            magnify: quality.magnify.unwrap_or(sampler.magnify),
+            max_eccentricity: quality.max_eccentricity.unwrap_or(sampler.max_eccentricity),
+            ..sampler
+        }
     }
 
     /// The renderer's settings for these choices.
@@ -81,20 +111,7 @@ impl Choices {
             Shade::Pixel => Shading::Pixel,
             Shade::Sample => Shading::Sample,
         };
-        settings.sampler.pixel = match self.pixel {
-            Pixel::Ewa => PixelFilter::Ewa,
-            Pixel::Bilinear => PixelFilter::Bilinear,
-            Pixel::Nearest => PixelFilter::Nearest,
-        };
-        settings.sampler.level = match self.level {
-            Level::Auto => LevelMode::Auto,
-            Level::Zero => LevelMode::Zero,
-            Level::Nearest => LevelMode::Nearest,
-            Level::Linear => LevelMode::Linear,
-        };
-        if let Some(ratio) = options.quality.max_eccentricity {
-            settings.sampler.max_eccentricity = ratio;
-        }
+        settings.sampler = self.sampler(&options.quality);
         settings.space = match self.space {
             Space::Srgb => WorkingSpace::Srgb,
             Space::Linear => WorkingSpace::Linear,
@@ -200,6 +217,25 @@ mod tests {
         for arguments in ["--samples 2 --pattern grid", "--samples 8 --pattern grid"] {
             assert!(matches!(choices(arguments, Profile::Svg), Err(Failure::Usage(_))));
         }
+    }
+
+    #[test]
+    fn a_quality_is_a_preset_and_words_beside_it_change_it() {
+        use scumble::texture::{Kernel, Magnify};
+        let of = |arguments: &str| settings(arguments, Profile::Svg).sampler;
+        assert_eq!(of(""), Sampler::DEFAULT);
+        for (name, preset) in Sampler::PRESETS {
+            assert_eq!(of(&format!("--quality {name}")), preset);
+        }
+        let own = of("--quality high --kernel lanczos3 --magnify catmull-rom --max-eccentricity 9");
+        let (kernel, magnify) = (Kernel::Lanczos3, Magnify::CatmullRom);
+        assert_eq!(own, Sampler { kernel, magnify, max_eccentricity: 9.0, ..Sampler::HIGH });
+        assert_eq!(of("--pixel probes").pixel, PixelFilter::Probes);
+        let trilinear = of("--pixel trilinear");
+        assert_eq!((trilinear.pixel, trilinear.level), (PixelFilter::Bilinear, LevelMode::Linear));
+        assert_eq!(of("--pixel trilinear --level nearest").level, LevelMode::Nearest);
+        let course = settings("--pixel trilinear", Profile::Course).sampler;
+        assert_eq!((course.pixel, course.level), (PixelFilter::Bilinear, LevelMode::Linear));
     }
 
     #[test]

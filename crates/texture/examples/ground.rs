@@ -1,6 +1,7 @@
-//! A ground plane to its horizon: what each sampler reads, and how far it is from the truth.
+//! A ground plane to its horizon: what each sampler reads, how far it is from the truth, and a picture
+//! of all of them, one strip below the other.
 //!
-//! `cargo run --release -p scumble-texture --example ground`
+//! `cargo run --release -p scumble-texture --example ground [OUT.png]`
 
 use scumble_geometry::{DVec2, Homography};
 use scumble_pixel::{Image, Premul};
@@ -26,6 +27,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let samplers = [
         ("nearest", base.with(PixelFilter::Nearest, LevelMode::Zero)),
         ("trilinear", base.with(PixelFilter::Bilinear, LevelMode::Linear)),
+        ("probes", base.with(PixelFilter::Probes, LevelMode::Auto)),
+        ("classic", Sampler::CLASSIC),
         ("fast", Sampler::FAST),
         ("default", Sampler::DEFAULT),
         ("high", Sampler::HIGH),
@@ -35,7 +38,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!(
         "worst error in 255ths by row (the horizon is above row 0), and texels read per pixel"
     );
-    for (name, sampler) in samplers {
+    let mut strips = image::RgbaImage::new(320, 60 * samplers.len() as u32);
+    for (k, (name, sampler)) in samplers.into_iter().enumerate() {
+        for y in 0..60 {
+            let mut row = [Premul::TRANSPARENT; 320];
+            texture.sample_row(&map, DVec2::new(0.5, f64::from(y) + 0.5), &sampler, &mut row);
+            for (x, color) in row.iter().enumerate() {
+                let pixel = image::Rgba(options.space.export(*color));
+                strips.put_pixel(x as u32, 60 * k as u32 + y, pixel);
+            }
+        }
         print!("{name:9}");
         for y in rows {
             let start = DVec2::new(0.5, f64::from(y) + 0.5);
@@ -52,5 +64,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         println!();
     }
+    let path = std::env::args().nth(1).unwrap_or_else(|| "target/ground-strips.png".into());
+    strips.save(&path)?;
+    println!("{path}: {}", samplers.map(|(name, _)| name).join(", "));
     Ok(())
 }

@@ -1,41 +1,63 @@
 //! A picture to a thumbnail without aliasing, in linear light.
 //!
-//! `cargo run --release -p scumble-texture --example shrink` draws a fan of rays, shrinks it nine
-//! times, and shows both the filtered thumbnail and what picking single texels makes of it.
+//! `cargo run --release -p scumble-texture --example shrink [OUT.png]` draws hills under a fence and a
+//! sun of rays, shrinks them nine times, and shows the filtered thumbnail beside what picking single
+//! texels makes of it, both enlarged four times.
 
 use scumble_geometry::{Affine, DVec2, Homography};
 use scumble_pixel::{Image, Premul, WorkingSpace};
 use scumble_texture::{LevelMode, PixelFilter, Sampler, Texture, TextureOptions};
 
-/// 36 rays that run together in the middle.
-fn rays(size: usize) -> Result<Image<[u8; 4]>, scumble_pixel::ImageError> {
-    Image::from_fn(size, size, |x, y| {
-        let half = size as f64 / 2.0;
-        let angle = (y as f64 + 0.5 - half).atan2(x as f64 + 0.5 - half);
-        if (angle * 36.0).sin() > 0.0 { [255; 4] } else { [0, 0, 0, 255] }
+/// A landscape of details finer than a pixel of the thumbnail.
+fn landscape(size: usize) -> Result<Image<[u8; 4]>, scumble_pixel::ImageError> {
+    Image::from_fn(size, size, |i, j| {
+        let (x, y) = (i as f64 / size as f64, j as f64 / size as f64);
+        let hill = 0.62 + 0.08 * (7.0 * x).sin() + 0.03 * (23.0 * x + 1.0).sin();
+        let (dx, dy) = (x - 0.68, y - 0.27);
+        let far = dx.hypot(dy);
+        let [r, g, b] = if far < 0.05 {
+            [255, 240, 160]
+        } else if far < 0.24 && (60.0 * dy.atan2(dx)).sin() > 0.2 {
+            [250, 200, 90]
+        } else if y > 0.72 && (i / 4) % 3 == 0 || (0.76..0.78).contains(&y) {
+            [245, 245, 240]
+        } else if y > hill {
+            let blades = ((i * 31 + j * 17) % 23) as u8;
+            [30 + blades, 90 + 4 * blades, 40]
+        } else {
+            [70 + (60.0 * y) as u8, 130 + (70.0 * y) as u8, 220]
+        };
+        [r, g, b, 255]
     })
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let picture = rays(360)?;
-    let (from, to) = (360.0, 40);
+    let picture = landscape(1080)?;
+    let (from, to) = (1080.0, 120);
 
-    // The three lines: a texture, the map from the thumbnail's pixels to its texels, and a row at a
-    // time.
+    // The three lines: a texture, the map from the thumbnail's pixels to its texels, and rows of it.
     let options = TextureOptions { space: WorkingSpace::Linear, ..Default::default() };
     let texture = Texture::new(picture.view(), &options)?;
     let map = Homography::from(Affine::scale(from / to as f64, from / to as f64));
 
     let nearest = Sampler::default().with(PixelFilter::Nearest, LevelMode::Zero);
-    for (name, sampler) in [("filtered", Sampler::default()), ("single texels", nearest)] {
-        println!("{name}:");
+    let zoom = 4;
+    let mut out = image::RgbaImage::new(2 * zoom * to as u32, zoom * to as u32);
+    for (k, sampler) in [Sampler::default(), nearest].iter().enumerate() {
+        let mut row = vec![Premul::TRANSPARENT; to];
         for y in 0..to {
-            let mut row = vec![Premul::TRANSPARENT; to];
-            texture.sample_row(&map, DVec2::new(0.5, y as f64 + 0.5), &sampler, &mut row);
-            // Five shades of grey, by light.
-            let shade = |c: &Premul| [" ", "░", "▒", "▓", "█"][(c.0[0] * 4.99) as usize];
-            println!("{}", row.iter().map(|c| shade(c).repeat(2)).collect::<String>());
+            texture.sample_row(&map, DVec2::new(0.5, y as f64 + 0.5), sampler, &mut row);
+            for (x, color) in row.iter().enumerate() {
+                let (x, y) = ((k * to + x) as u32 * zoom, y as u32 * zoom);
+                for i in 0..zoom * zoom {
+                    let pixel = image::Rgba(options.space.export(*color));
+                    out.put_pixel(x + i % zoom, y + i / zoom, pixel);
+                }
+            }
         }
     }
+    let path = std::env::args().nth(1).unwrap_or_else(|| "target/shrink.png".into());
+    out.save(&path)?;
+    println!("{path}: filtered, and single texels");
     Ok(())
 }

@@ -36,11 +36,12 @@ struct Ellipses {
     usable: [i32; BATCH],
 }
 
-/// The level of each ellipse, as the loops need it.
+/// The levels of each ellipse.
 #[derive(Default)]
 struct Chosen {
     pick: [Pick; BATCH],
-    frame: [Frame; BATCH],
+    /// Whether all read the same.
+    same: bool,
 }
 
 /// [`Walk`]s, by field.
@@ -58,6 +59,7 @@ struct Walks {
     row_scale: [f32; BATCH],
     run_scale: [f32; BATCH],
     inside: [i32; BATCH],
+    small: [i32; BATCH],
     /// 1 where the ellipse needs mending, else 0.
     rare: [i32; BATCH],
 }
@@ -72,6 +74,8 @@ pub(crate) fn fill(
     out: &mut [Premul],
 ) {
     let mut scratch = Scratch::default();
+    let mut jobs = [Job::default(); 2 * BATCH];
+    let mut colors = [[0.0; 4]; 2 * BATCH];
     for (chunk, out) in out.chunks_mut(BATCH).enumerate() {
         let first = chunk * BATCH;
         let ellipses = Ellipses::new(
@@ -81,10 +85,15 @@ pub(crate) fn fill(
             |i| at(first + i),
         );
         let chosen = Chosen::new(t, &ellipses, limits);
-        let walks = Walks::new(&ellipses, &chosen, limits);
-        let mut jobs = [Job::default(); 2 * BATCH];
+        // To collect the frames of several levels takes longer than all the rest.
+        let frame = |i: usize| &t.levels[chosen.pick[i].level].frame;
+        let walks = if chosen.same {
+            let frame = *frame(0);
+            Walks::new(&ellipses, |_| &frame, limits)
+        } else {
+            Walks::new(&ellipses, frame, limits)
+        };
         let count = list(t, &ellipses, &chosen, &walks, limits, &mut jobs[..], out.len());
-        let mut colors = [[0.0; 4]; 2 * BATCH];
         engine.walk_all(t, &jobs[..count], &mut scratch, &mut colors[..count]);
         let mut colors = colors.iter();
         for (i, out) in out.iter_mut().enumerate() {
@@ -163,11 +172,12 @@ impl Ellipses {
 impl Chosen {
     #[inline(always)]
     fn new(t: &Texture, e: &Ellipses, limits: &Limits) -> Self {
-        let mut chosen = Self::default();
+        let mut chosen = Self { same: true, ..Self::default() };
         for i in 0..BATCH {
-            let pick = auto_pick(e.minor[i], t.levels.len() - 1, limits.blend);
-            chosen.pick[i] = pick;
-            chosen.frame[i] = t.levels[pick.level].frame;
+            chosen.pick[i] = auto_pick(e.minor[i], t.levels.len() - 1, limits.blend);
+        }
+        for pick in &chosen.pick {
+            chosen.same &= pick.level == chosen.pick[0].level;
         }
         chosen
     }
@@ -175,10 +185,10 @@ impl Chosen {
 
 impl Walks {
     #[inline(always)]
-    fn new(e: &Ellipses, chosen: &Chosen, limits: &Limits) -> Self {
+    fn new<'a>(e: &Ellipses, frame: impl Fn(usize) -> &'a Frame, limits: &Limits) -> Self {
         let mut o = Self::default();
         for i in 0..BATCH {
-            let frame = &chosen.frame[i];
+            let frame = frame(i);
             let sigma = e.get(i).at_level(frame);
             let w = Walk::new(e.u[i], e.v[i], frame, &sigma, limits);
             o.x0[i] = w.x0;
@@ -193,6 +203,7 @@ impl Walks {
             o.row_scale[i] = w.row_scale;
             o.run_scale[i] = w.run_scale;
             o.inside[i] = w.inside;
+            o.small[i] = w.small;
             o.rare[i] = i32::from(sigma.needs_mending(frame, limits));
         }
         o
@@ -214,5 +225,6 @@ impl Walks {
         w.run_scale = self.run_scale[i];
         w.cut = limits.cut;
         w.inside = self.inside[i];
+        w.small = self.small[i];
     }
 }

@@ -1,8 +1,7 @@
 //! From one level to the next: separable, exact for every size.
 
-use crate::level::Level;
 use crate::math::{bessel_i0, sinc};
-use crate::{Decimation, TextureError, Wrap};
+use crate::{Decimation, Wrap};
 use alloc::{vec, vec::Vec};
 
 /// β of the Kaiser window.
@@ -16,9 +15,9 @@ pub(crate) struct Taps {
     /// Output texels.
     pub(crate) outputs: usize,
     /// Taps for each output.
-    count: usize,
+    pub(crate) count: usize,
     /// First input texel of every output, before wrapping.
-    firsts: Vec<i32>,
+    pub(crate) firsts: Vec<i32>,
     /// What lies beyond the edge.
     fold: Wrap,
     /// Input texels.
@@ -77,60 +76,28 @@ impl Taps {
 
     /// The weights of output `i`.
     #[inline(always)]
-    fn weights(&self, i: usize) -> &[f32] {
+    pub(crate) fn weights(&self, i: usize) -> &[f32] {
         &self.weights[i * self.count..(i + 1) * self.count]
     }
 
-    /// The input texel of tap `k` of output `i`.
+    /// Whether all outputs have the weights of the first, each two texels on.
     #[inline(always)]
-    fn index(&self, i: usize, k: usize) -> usize {
+    pub(crate) fn is_even(&self) -> bool {
+        self.inputs.is_multiple_of(2)
+    }
+
+    /// The input texel that stands at `i`, which may lie outside.
+    #[inline(always)]
+    pub(crate) fn resolve(&self, i: i32) -> usize {
         // Neither fold has an outside.
-        self.fold.resolve(self.firsts[i] + k as i32, self.inputs).unwrap_or(0)
+        self.fold.resolve(i, self.inputs).unwrap_or(0)
     }
 
-    /// Σ wₖ·tₖ of whole rows, as the middle one plus the weighted differences from it, so that equal
-    /// texels give themselves to the last bit.
-    #[inline(always)]
-    fn apply_to_rows(&self, i: usize, from: &Level, out: &mut [[f32; 4]]) {
-        let out = out.as_flattened_mut();
-        let middle_tap = self.count / 2;
-        let middle = from.row(self.index(i, middle_tap)).as_flattened();
-        out.copy_from_slice(middle);
-        for (k, w) in self.weights(i).iter().enumerate().filter(|(k, _)| *k != middle_tap) {
-            let row = from.row(self.index(i, k)).as_flattened();
-            for ((out, t), middle) in out.iter_mut().zip(row).zip(middle) {
-                *out += w * (t - middle);
-            }
-        }
+    /// How many texels the taps reach over the two ends.
+    pub(crate) fn margins(&self) -> [usize; 2] {
+        let (first, last) = (self.firsts[0], self.firsts[self.outputs - 1] + self.count as i32);
+        [(-first).max(0) as usize, (last - self.inputs as i32).max(0) as usize]
     }
-
-    /// The same along one row.
-    #[inline(always)]
-    fn apply_along(&self, from: &[[f32; 4]], out: &mut [[f32; 4]]) {
-        for (i, out) in out.iter_mut().enumerate() {
-            let weights = self.weights(i);
-            let first = usize::try_from(self.firsts[i]).ok();
-            let inside = first.and_then(|first| from.get(first..first + self.count));
-            *out = match inside {
-                Some(run) => average(weights, |k| run[k]),
-                None => average(weights, |k| from[self.index(i, k)]),
-            };
-        }
-    }
-}
-
-/// Σ wₖ·tₖ of single texels, about the middle one.
-#[inline(always)]
-fn average(weights: &[f32], texel: impl Fn(usize) -> [f32; 4]) -> [f32; 4] {
-    let middle = texel(weights.len() / 2);
-    let mut sum = middle;
-    for (k, w) in weights.iter().enumerate() {
-        let t = texel(k);
-        for c in 0..4 {
-            sum[c] += w * (t[c] - middle[c]);
-        }
-    }
-    sum
 }
 
 /// The half-band kernel at distance `d` in texels of an even-sized level: sinc(d/2) under the
@@ -179,22 +146,6 @@ fn balance(weights: &mut [f64], firsts: &[i32], count: usize, ratio: f64) {
     }
 }
 
-/// The next coarser level.
-pub(crate) fn halve(from: &Level, filter: Decimation, wrap: Wrap) -> Result<Level, TextureError> {
-    let columns = Taps::new(from.width, filter, wrap);
-    let rows = Taps::new(from.height, filter, wrap);
-    let mut to = Level::new(columns.outputs, rows.outputs)?;
-    to.fill_rows(
-        from.width,
-        #[inline(always)]
-        |y, tall, out| {
-            rows.apply_to_rows(y, from, tall);
-            columns.apply_along(tall, out);
-        },
-    );
-    Ok(to)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -218,7 +169,7 @@ mod tests {
         let mut dense = [[0.0f32; 5]; 2];
         for (i, dense) in dense.iter_mut().enumerate() {
             for (k, w) in taps.weights(i).iter().enumerate() {
-                dense[taps.index(i, k)] += w;
+                dense[taps.resolve(taps.firsts[i] + k as i32)] += w;
             }
         }
         let near = |a: [f32; 5], b: [f32; 5]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);
@@ -235,7 +186,8 @@ mod tests {
                     let mut totals = vec![0.0f64; n];
                     for i in 0..taps.outputs {
                         for (k, w) in taps.weights(i).iter().enumerate() {
-                            totals[taps.index(i, k)] += f64::from(*w);
+                            let j = taps.resolve(taps.firsts[i] + k as i32);
+                            totals[j] += f64::from(*w);
                         }
                     }
                     let share = taps.outputs as f64 / n as f64;

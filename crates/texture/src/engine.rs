@@ -1,15 +1,20 @@
 use crate::level::Level;
+use crate::point;
+use crate::texel::Texel;
 use crate::walk::Walk;
 use crate::walk_simd::Scratch;
 use crate::{Texture, Wrap};
-use fearless_simd::Simd;
+use fearless_simd::{Simd, f32x8, i16x8, prelude::*};
 
 /// The inner loops, in scalar code or in vectors: the same bits from each.
 pub(crate) trait Engine: Copy {
     /// The weighted average of the texels in an ellipse.
     fn walk(self, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4];
 
-    /// Many of them.
+    /// The bilinear mean of two rows of two texels, in steps.
+    fn bilinear(self, top: &[Texel; 2], bottom: &[Texel; 2], fx: f32, fy: f32) -> [f32; 4];
+
+    /// Many walks.
     fn walk_all(self, t: &Texture, jobs: &[Job], scratch: &mut Scratch, out: &mut [[f32; 4]]);
 }
 
@@ -34,6 +39,11 @@ impl Engine for Scalar {
         crate::walk::walk(level, wrap, w)
     }
 
+    #[inline(always)]
+    fn bilinear(self, top: &[Texel; 2], bottom: &[Texel; 2], fx: f32, fy: f32) -> [f32; 4] {
+        point::bilinear(top, bottom, fx, fy)
+    }
+
     fn walk_all(self, t: &Texture, jobs: &[Job], _: &mut Scratch, out: &mut [[f32; 4]]) {
         for (job, out) in jobs.iter().zip(out) {
             *out = self.walk(&t.levels[job.level], t.wrap, &job.walk);
@@ -52,10 +62,24 @@ impl<S: Simd> Engine for Vector<S> {
     }
 
     #[inline(always)]
+    fn bilinear(self, top: &[Texel; 2], bottom: &[Texel; 2], fx: f32, fy: f32) -> [f32; 4] {
+        let top = steps(self.0, top);
+        let (left, right) = (top + (steps(self.0, bottom) - top) * fy).split();
+        (left + (right - left) * fx).to_array()
+    }
+
+    #[inline(always)]
     fn walk_all(self, t: &Texture, jobs: &[Job], scratch: &mut Scratch, out: &mut [[f32; 4]]) {
         self.0.vectorize(
             #[inline(always)]
             || crate::walk_simd::walk_all(self.0, t, jobs, scratch, out),
         );
     }
+}
+
+/// Two texels in steps.
+#[inline(always)]
+fn steps<S: Simd>(simd: S, texels: &[Texel; 2]) -> f32x8<S> {
+    let (a, b) = i16x8::from_slice(simd, texels.as_flattened()).widen();
+    a.combine(b).to_float::<f32x8<S>>()
 }

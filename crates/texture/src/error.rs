@@ -13,6 +13,9 @@ pub enum TextureError {
         /// Rows.
         height: usize,
     },
+    /// A kind of pixel that is not known.
+    #[error("a kind of pixel that is not known")]
+    Format,
     /// The allocator refused the memory.
     #[error("no memory for {bytes} bytes of texels")]
     OutOfMemory {

@@ -2,6 +2,7 @@
 
 use crate::covariance::Covariance;
 use crate::engine::Engine;
+use crate::gaussian::UNIT;
 use crate::lod::{self, Pick, half_octaves};
 use crate::point::lerp;
 use crate::walk::Walk;
@@ -30,7 +31,7 @@ pub(crate) struct Limits {
     /// The determinant of the largest ellipse.
     pub(crate) most_det: f64,
     pub(crate) blend: bool,
-    /// ½R²: weights whose exponent is above it are 0.
+    /// ½R², in [`UNIT`]s: weights whose exponent is above it are 0.
     pub(crate) cut: f32,
 }
 
@@ -51,7 +52,7 @@ impl Limits {
             inverse_least: 1.0 / (least * least),
             most_det: axes * axes,
             blend: s.blend,
-            cut: (0.5 * radius * radius) as f32,
+            cut: (0.5 * radius * radius) as f32 * UNIT,
         }
     }
 }

@@ -1,3 +1,4 @@
+use crate::math::sqrt;
 use crate::wrap::FAR;
 use scumble_geometry::{DVec2, Homography, Matrix2};
 
@@ -55,6 +56,15 @@ impl Footprint {
         // A comparison with NaN is false.
         let Matrix2 { a, b, c, d } = self.jacobian;
         (a.abs() <= FAR) & (b.abs() <= FAR) & (c.abs() <= FAR) & (d.abs() <= FAR)
+    }
+
+    /// The square of the major axis of the ellipse, s₁².
+    #[inline(always)]
+    pub(crate) fn major_squared(&self) -> f64 {
+        let Matrix2 { a, b, c, d } = self.jacobian;
+        let (p, r, q) = (a * a + b * b, c * c + d * d, a * c + b * d);
+        let (x, y) = (p - r, 2.0 * q);
+        0.5 * (p + r + sqrt(x * x + y * y))
     }
 
     /// The square of the longer column of the Jacobian: how far, in texels, a step of one pixel

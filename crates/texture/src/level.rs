@@ -1,8 +1,6 @@
-use crate::{Simd, TextureError, Wrap};
+use crate::texel::{Texel, color, of_color};
+use crate::{TextureError, Wrap};
 use alloc::{vec, vec::Vec};
-use fearless_simd::dispatch;
-#[cfg(feature = "parallel")]
-use rayon::prelude::*;
 
 /// One level: rows of premultiplied RGBA in the working space, [`stride`] texels from row to row.
 #[derive(Debug, Clone)]
@@ -10,7 +8,7 @@ pub(crate) struct Level {
     pub(crate) width: usize,
     pub(crate) height: usize,
     pub(crate) stride: usize,
-    pub(crate) texels: Vec<[f32; 4]>,
+    pub(crate) texels: Vec<Texel>,
     /// What an index is cut to, per axis, before it is used: all ones, or a size less one where the
     /// level is a tile whose sides are powers of two.
     pub(crate) mask: [i32; 2],
@@ -37,9 +35,6 @@ pub(crate) struct Frame {
 /// The largest side of a texture, in texels.
 pub(crate) const LARGEST: usize = 1 << 29;
 
-/// Rows that one thread fills at a time.
-const BLOCK: usize = 16;
-
 /// Texels of the largest level that a walk takes the short way in.
 const SHORT: usize = 1 << 31;
 
@@ -49,28 +44,32 @@ pub(crate) const APRON: usize = crate::walk::LANES - 1;
 
 /// Texels from one row of a level to the next.
 ///
-/// Four texels are a line of the cache. An odd number of lines puts the rows that an ellipse crosses
+/// Eight texels are a line of the cache. An odd number of lines puts the rows that an ellipse crosses
 /// into different sets of it; with the powers of two that textures like to be, they would all fall into
 /// one and push each other out. Narrow levels are left alone.
 pub(crate) fn stride(width: usize) -> usize {
     let wide = width.saturating_add(APRON);
-    if width < 32 { wide } else { (wide.div_ceil(4) | 1).saturating_mul(4) }
+    if width < 64 { wide } else { (wide.div_ceil(8) | 1).saturating_mul(8) }
 }
 
 impl Level {
-    /// A level of nothing, to be filled.
-    pub(crate) fn new(width: usize, height: usize) -> Result<Self, TextureError> {
+    /// A level of no meaning, to be filled, in the memory of another if that is of its size.
+    pub(crate) fn new(width: usize, height: usize, old: Vec<Texel>) -> Result<Self, TextureError> {
         let stride = stride(width);
         let len = stride.checked_mul(height).ok_or(TextureError::TooLarge { width, height })?;
-        let bytes = len
-            .checked_mul(size_of::<[f32; 4]>())
-            .ok_or(TextureError::TooLarge { width, height })?;
-        // Asked for first, so that a refusal is an error; then had zeroed from the system, which
-        // costs nothing until it is written.
-        let mut asked = Vec::<[f32; 4]>::new();
-        asked.try_reserve_exact(len).map_err(|_| TextureError::OutOfMemory { bytes })?;
-        drop(asked);
-        let texels = vec![[0.0; 4]; len];
+        let bytes =
+            len.checked_mul(size_of::<Texel>()).ok_or(TextureError::TooLarge { width, height })?;
+        let texels = if old.len() == len {
+            old
+        } else {
+            drop(old);
+            // Asked for first, so that a refusal is an error; then had zeroed from the system, which
+            // costs nothing until it is written.
+            let mut asked = Vec::<Texel>::new();
+            asked.try_reserve_exact(len).map_err(|_| TextureError::OutOfMemory { bytes })?;
+            drop(asked);
+            vec![[0; 4]; len]
+        };
         let most = [width, height].map(|n| if n == 1 { 2.5 } else { f64::INFINITY });
         let size = if len < SHORT { [width as f64, height as f64] } else { [0.0; 2] };
         let frame = Frame { scale: [1.0; 2], blurred: [0.0; 2], most, low: 0.0, size };
@@ -104,48 +103,28 @@ impl Level {
 
     /// The texels of row `y`, which must exist, and its apron.
     #[inline(always)]
-    pub(crate) fn row_with_apron(&self, y: usize) -> &[[f32; 4]] {
+    pub(crate) fn row_with_apron(&self, y: usize) -> &[Texel] {
         &self.texels[y * self.stride..][..self.width + APRON]
     }
 
     /// The texels of row `y`, which must exist.
     #[inline(always)]
-    pub(crate) fn row(&self, y: usize) -> &[[f32; 4]] {
+    pub(crate) fn row(&self, y: usize) -> &[Texel] {
         &self.texels[y * self.stride..][..self.width]
-    }
-
-    /// Writes every row: `fill` gets its number, `scratch` texels to work in, and the row.
-    ///
-    /// Compiled for the best instructions there are, and with the feature `parallel` run on several
-    /// threads; neither changes what is written.
-    pub(crate) fn fill_rows(
-        &mut self,
-        scratch: usize,
-        fill: impl Fn(usize, &mut [[f32; 4]], &mut [[f32; 4]]) + Sync,
-    ) {
-        let (width, stride) = (self.width, self.stride);
-        let block = |(i, rows): (usize, &mut [[f32; 4]])| {
-            let mut scratch = vec![[0.0; 4]; scratch];
-            let rows = rows.chunks_exact_mut(stride).map(|row| &mut row[..width]).enumerate();
-            match Simd::best().0 {
-                None => rows.for_each(|(k, row)| fill(i * BLOCK + k, &mut scratch, row)),
-                Some(level) => dispatch!(level, _simd => for (k, row) in rows {
-                    fill(i * BLOCK + k, &mut scratch, row);
-                }),
-            }
-        };
-        #[cfg(feature = "parallel")]
-        self.texels.par_chunks_mut(BLOCK * stride).enumerate().for_each(block);
-        #[cfg(not(feature = "parallel"))]
-        self.texels.chunks_mut(BLOCK * stride).enumerate().for_each(block);
     }
 
     /// The texel at (x, y), which may lie outside.
     #[inline(always)]
-    pub(crate) fn texel(&self, x: i32, y: i32, wrap: Wrap) -> [f32; 4] {
+    pub(crate) fn stored(&self, x: i32, y: i32, wrap: Wrap) -> Texel {
         match (wrap.resolve(x, self.width), wrap.resolve(y, self.height)) {
             (Some(x), Some(y)) => self.texels[y * self.stride + x],
-            _ => wrap.border(),
+            _ => of_color(wrap.border()),
         }
+    }
+
+    /// The colour of the texel at (x, y), which may lie outside.
+    #[inline(always)]
+    pub(crate) fn texel(&self, x: i32, y: i32, wrap: Wrap) -> [f32; 4] {
+        color(self.stored(x, y, wrap))
     }
 }

@@ -17,7 +17,8 @@ pub(crate) struct Pick {
 #[inline(always)]
 pub(crate) fn detail(step: f64) -> f64 {
     let d = 0.5 * log2(step);
-    if step > 1.0 { d } else { 0.0 }
+    // At most what no pyramid has: it must not become a NaN.
+    if step > 1.0 { if step < 1e30 { d } else { 50.0 } } else { 0.0 }
 }
 
 /// The levels for a squared step and its [`detail`] (for [`LevelMode::Linear`] alone), up to the level
@@ -26,19 +27,24 @@ pub(crate) fn detail(step: f64) -> f64 {
 pub(crate) fn pick(step: f64, detail: f64, mode: LevelMode, last: usize) -> Pick {
     let level = match mode {
         LevelMode::Zero => 0,
-        _ if !step.is_finite() => last,
         // D ≥ k + ½ means that the squared step is at least 2·4ᵏ: exact, without a logarithm.
         LevelMode::Nearest => half_octaves(2.0 * step).min(last),
-        _ => (detail as usize).min(last),
+        _ => half_octaves(step).min(last),
     };
     let blends = mode == LevelMode::Linear && level < last;
-    Pick { level, coarser: if blends { (detail - level as f64) as f32 } else { 0.0 } }
+    // Rounding may put D a last bit outside the level.
+    let coarser = (detail - level as f64).max(0.0) as f32;
+    Pick { level, coarser: if blends { coarser.min(MOST) } else { 0.0 } }
 }
 
-/// max(0, ⌊log₄ x⌋) of a finite x ≥ 0, from the exponent's bits.
+/// The largest weight below 1.
+const MOST: f32 = 1.0 - 0.5 * f32::EPSILON;
+
+/// max(0, ⌊log₄ x⌋) of an x ≥ 0, from the exponent's bits; more than any level for one that is not
+/// finite.
 #[inline(always)]
 pub(crate) fn half_octaves(x: f64) -> usize {
-    (((x.to_bits() >> 52) as usize).saturating_sub(1023)) / 2
+    ((x.to_bits() >> 52) as u32).saturating_sub(1023) as usize / 2
 }
 
 #[cfg(test)]

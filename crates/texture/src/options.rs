@@ -39,6 +39,19 @@ pub enum Levels {
     All,
     /// The image alone. Minification then costs texels and is bounded by a budget.
     BaseOnly,
+    /// From one level to another, both included, for a texture that is always seen at about the same
+    /// size: a thumbnail's source needs no level as large as itself. What lies outside the pyramid
+    /// is brought back to it.
+    ///
+    /// Where the footprint asks for a finer level the first is magnified, and for a coarser one the
+    /// last costs more texels, up to a budget. Positions and Jacobians stay in texels of the image.
+    /// While the texture is made, the finer levels are there too.
+    Range {
+        /// The finest level to keep; 0 is the image.
+        first: usize,
+        /// The coarsest.
+        last: usize,
+    },
 }
 
 /// How a texture is made of an image.

@@ -1,8 +1,10 @@
 //! Nearest and bilinear: filters of a place in one level, or in two that are blended.
 
+use crate::engine::Engine;
 use crate::level::Level;
 use crate::lod::{self, Pick};
-use crate::math::floor;
+use crate::math::{floor, whole};
+use crate::texel::{STEP, Texel, steps};
 use crate::texture::into_range;
 use crate::{Footprint, LevelMode, Texture, Wrap};
 use scumble_pixel::Premul;
@@ -13,34 +15,124 @@ pub(crate) fn lerp(a: [f32; 4], b: [f32; 4], t: f32) -> [f32; 4] {
     core::array::from_fn(|c| a[c] + (b[c] - a[c]) * t)
 }
 
-/// The texel that (u, v), in texels of this level, lies in.
-#[inline(always)]
-pub(crate) fn nearest(level: &Level, wrap: Wrap, u: f64, v: f64) -> [f32; 4] {
-    level.texel(floor(u) as i32, floor(v) as i32, wrap)
+/// A filter of a place in a level.
+pub(crate) trait Point: Copy {
+    /// The colours, in steps, at places given in texels of level 0.
+    ///
+    /// One loop for the indices, which has no branch, and one for the texels.
+    fn colors<const N: usize>(
+        self,
+        engine: impl Engine,
+        level: &Level,
+        wrap: Wrap,
+        places: [&[f64; N]; 2],
+    ) -> [[f32; 4]; N];
 }
 
-/// The four texels whose centres surround (u, v), in texels of this level.
-#[inline(always)]
-pub(crate) fn bilinear(level: &Level, wrap: Wrap, u: f64, v: f64) -> [f32; 4] {
-    let (x, y) = (u - 0.5, v - 0.5);
-    let (x0, y0) = (floor(x), floor(y));
-    let (fx, fy) = ((x - x0) as f32, (y - y0) as f32);
-    let (x0, y0) = (x0 as i32, y0 as i32);
-    if (x0 >= 0) & (y0 >= 0) & (x0 + 1 < level.width as i32) & (y0 + 1 < level.height as i32) {
-        let i = y0 as usize * level.stride + x0 as usize;
-        let j = i + level.stride;
-        let t = &level.texels;
-        return lerp(lerp(t[i], t[i + 1], fx), lerp(t[j], t[j + 1], fx), fy);
+/// The texel that the place lies in.
+#[derive(Clone, Copy)]
+pub(crate) struct Nearest;
+
+/// The four texels whose centres surround the place.
+#[derive(Clone, Copy)]
+pub(crate) struct Bilinear;
+
+impl Point for Nearest {
+    #[inline(always)]
+    fn colors<const N: usize>(
+        self,
+        _: impl Engine,
+        level: &Level,
+        wrap: Wrap,
+        [u, v]: [&[f64; N]; 2],
+    ) -> [[f32; 4]; N] {
+        let [su, sv] = level.frame.scale;
+        let (mut x, mut y) = ([0; N], [0; N]);
+        for i in 0..N {
+            x[i] = whole(floor(u[i] * su)) & level.mask[0];
+            y[i] = whole(floor(v[i] * sv)) & level.mask[1];
+        }
+        let mut texels = [[0; 4]; N];
+        if holds(level, &x, &y, 1) {
+            for i in 0..N {
+                let row = y[i] as u32 as usize * level.stride;
+                texels[i] = level.texels[row + x[i] as u32 as usize];
+            }
+        } else {
+            for i in 0..N {
+                texels[i] = level.stored(x[i], y[i], wrap);
+            }
+        }
+        let mut colors = [[0.0; 4]; N];
+        for (color, t) in colors.as_flattened_mut().iter_mut().zip(texels.as_flattened()) {
+            *color = f32::from(*t);
+        }
+        colors
     }
-    across_the_edge(level, wrap, [x0, y0], [fx, fy])
 }
 
-/// [`bilinear`] where a texel lies outside.
+impl Point for Bilinear {
+    #[inline(always)]
+    fn colors<const N: usize>(
+        self,
+        engine: impl Engine,
+        level: &Level,
+        wrap: Wrap,
+        [u, v]: [&[f64; N]; 2],
+    ) -> [[f32; 4]; N] {
+        let [su, sv] = level.frame.scale;
+        let (mut x, mut y) = ([0; N], [0; N]);
+        let (mut fx, mut fy) = ([0.0; N], [0.0; N]);
+        for i in 0..N {
+            let (u, v) = (u[i] * su - 0.5, v[i] * sv - 0.5);
+            let (x0, y0) = (floor(u), floor(v));
+            x[i] = whole(x0);
+            y[i] = whole(y0);
+            fx[i] = (u - x0) as f32;
+            fy[i] = (v - y0) as f32;
+        }
+        let inside = holds(level, &x, &y, 2);
+        let mut colors = [[0.0; 4]; N];
+        for i in 0..N {
+            let top = y[i] as u32 as usize * level.stride + x[i] as u32 as usize;
+            let bottom = top + level.stride;
+            let run = |i: usize| level.texels.get(i..i + 2)?.first_chunk();
+            colors[i] = match (run(top), run(bottom)) {
+                (Some(top), Some(bottom)) if inside => engine.bilinear(top, bottom, fx[i], fy[i]),
+                _ => {
+                    let [top, bottom] = square_across(level, wrap, x[i], y[i]);
+                    engine.bilinear(&top, &bottom, fx[i], fy[i])
+                }
+            };
+        }
+        colors
+    }
+}
+
+/// Whether the squares of `side` texels from (x, y) on lie in the level, all of them.
+#[inline(always)]
+fn holds<const N: usize>(level: &Level, x: &[i32; N], y: &[i32; N], side: i32) -> bool {
+    let (right, bottom) = (level.width as i32 - side, level.height as i32 - side);
+    let mut inside = true;
+    for i in 0..N {
+        inside &= (x[i] >= 0) & (y[i] >= 0) & (x[i] <= right) & (y[i] <= bottom);
+    }
+    inside
+}
+
+/// Two texels of each of two rows, the first at (x, y); they may lie outside.
 #[cold]
 #[inline(never)]
-fn across_the_edge(level: &Level, wrap: Wrap, [x, y]: [i32; 2], [fx, fy]: [f32; 2]) -> [f32; 4] {
-    let row = |y| lerp(level.texel(x, y, wrap), level.texel(x + 1, y, wrap), fx);
-    lerp(row(y), row(y + 1), fy)
+fn square_across(level: &Level, wrap: Wrap, x: i32, y: i32) -> [[Texel; 2]; 2] {
+    [y, y + 1].map(|y| [x, x + 1].map(|x| level.stored(x, y, wrap)))
+}
+
+/// The bilinear mean of two rows of two texels, in steps: first down, then along.
+#[inline(always)]
+pub(crate) fn bilinear(top: &[Texel; 2], bottom: &[Texel; 2], fx: f32, fy: f32) -> [f32; 4] {
+    let left = lerp(steps(top[0]), steps(bottom[0]), fy);
+    let right = lerp(steps(top[1]), steps(bottom[1]), fy);
+    lerp(left, right, fx)
 }
 
 /// Pixels set up together.
@@ -51,55 +143,123 @@ const BATCH: usize = 16;
 #[inline(always)]
 pub(crate) fn fill(
     t: &Texture,
+    engine: impl Engine,
     at: impl Fn(usize) -> Footprint,
     mode: LevelMode,
-    filter: impl Fn(&Level, Wrap, f64, f64) -> [f32; 4],
+    filter: impl Point,
     out: &mut [Premul],
 ) {
-    let last = t.levels.len() - 1;
-    for (chunk, out) in out.chunks_mut(BATCH).enumerate() {
-        let (mut u, mut v) = ([0.0; BATCH], [0.0; BATCH]);
-        let (mut step, mut detail) = ([0.0; BATCH], [0.0; BATCH]);
-        // A lone sample is not set up sixteen times.
-        let many = if out.len() == 1 { 1 } else { BATCH };
-        for i in 0..many {
-            let f = t.nearer(&at(chunk * BATCH + i));
-            u[i] = f.u;
-            v[i] = f.v;
-            step[i] = f.longest_step_squared();
-        }
-        if mode == LevelMode::Linear {
-            for i in 0..many {
-                detail[i] = lod::detail(step[i]);
+    let mut chunks = out.chunks_exact_mut(BATCH);
+    let mut first = 0;
+    for out in &mut chunks {
+        let places = Places::<BATCH>::new(
+            t,
+            mode,
+            #[inline(always)]
+            |i| at(first + i),
+        );
+        if places.together() {
+            places.fill(t, engine, filter, out);
+        } else {
+            for (i, out) in out.iter_mut().enumerate() {
+                places.one(i).fill(t, engine, filter, core::slice::from_mut(out));
             }
         }
-        for (i, out) in out.iter_mut().enumerate() {
-            let pick = lod::pick(step[i], detail[i], mode, last);
-            *out = if (u[i] + v[i]).is_finite() {
-                into_range(blend(t, &pick, u[i], v[i], &filter))
-            } else {
-                t.average()
-            };
-        }
+        first += BATCH;
+    }
+    for (i, out) in chunks.into_remainder().iter_mut().enumerate() {
+        let place = Places::<1>::new(
+            t,
+            mode,
+            #[inline(always)]
+            |_| at(first + i),
+        );
+        place.fill(t, engine, filter, core::slice::from_mut(out));
     }
 }
 
-/// One level, or two of them.
-#[inline(always)]
-fn blend(
-    t: &Texture,
-    pick: &Pick,
-    u: f64,
-    v: f64,
-    filter: impl Fn(&Level, Wrap, f64, f64) -> [f32; 4],
-) -> [f32; 4] {
-    let level = &t.levels[pick.level];
-    let [su, sv] = level.frame.scale;
-    let fine = filter(level, t.wrap, u * su, v * sv);
-    if pick.coarser == 0.0 {
-        return fine;
+/// Places in level 0 and the levels to read there.
+struct Places<const N: usize> {
+    u: [f64; N],
+    v: [f64; N],
+    level: [u32; N],
+    /// The weight of the next level.
+    coarser: [f32; N],
+    blends: bool,
+}
+
+impl<const N: usize> Places<N> {
+    #[inline(always)]
+    fn new(t: &Texture, mode: LevelMode, at: impl Fn(usize) -> Footprint) -> Self {
+        let last = t.levels.len() - 1;
+        let blends = mode == LevelMode::Linear;
+        let mut places =
+            Self { u: [0.0; N], v: [0.0; N], level: [0; N], coarser: [0.0; N], blends };
+        let mut steps = [0.0; N];
+        for (i, step) in steps.iter_mut().enumerate() {
+            let f = t.nearer(&at(i));
+            places.u[i] = f.u;
+            places.v[i] = f.v;
+            *step = f.longest_step_squared();
+        }
+        // A loop for each mode: in one for all, every place would pay for the dearest.
+        let mut pick = |mode| {
+            for (i, step) in steps.iter().enumerate() {
+                let detail = if mode == LevelMode::Linear { lod::detail(*step) } else { 0.0 };
+                let Pick { level, coarser } = lod::pick(*step, detail, mode, last);
+                places.level[i] = level as u32;
+                places.coarser[i] = coarser;
+            }
+        };
+        match mode {
+            LevelMode::Zero => (),
+            LevelMode::Nearest => pick(LevelMode::Nearest),
+            LevelMode::Linear | LevelMode::Auto => pick(LevelMode::Linear),
+        }
+        places
     }
-    let level = &t.levels[pick.level + 1];
-    let [su, sv] = level.frame.scale;
-    lerp(fine, filter(level, t.wrap, u * su, v * sv), pick.coarser)
+
+    /// Whether all are finite and read the same levels.
+    #[inline(always)]
+    fn together(&self) -> bool {
+        let mut same = true;
+        for i in 0..N {
+            same &= (self.level[i] == self.level[0]) & (self.u[i] + self.v[i]).is_finite();
+        }
+        same
+    }
+
+    #[inline(always)]
+    fn one(&self, i: usize) -> Places<1> {
+        Places {
+            u: [self.u[i]],
+            v: [self.v[i]],
+            level: [self.level[i]],
+            coarser: [self.coarser[i]],
+            blends: self.blends,
+        }
+    }
+
+    /// The colours of places that are together.
+    #[inline(always)]
+    fn fill(&self, t: &Texture, engine: impl Engine, filter: impl Point, out: &mut [Premul]) {
+        if N == 1 && !(self.u[0] + self.v[0]).is_finite() {
+            out.fill(t.average());
+            return;
+        }
+        let places = [&self.u, &self.v];
+        let index = self.level[0] as usize;
+        let mut colors = filter.colors(engine, &t.levels[index], t.wrap, places);
+        if self.blends
+            && let Some(level) = t.levels.get(index + 1)
+        {
+            let next = filter.colors(engine, level, t.wrap, places);
+            for ((color, next), coarser) in colors.iter_mut().zip(next).zip(self.coarser) {
+                *color = lerp(*color, next, coarser);
+            }
+        }
+        for (out, color) in out.iter_mut().zip(colors) {
+            *out = into_range(color.map(|v| v * STEP));
+        }
+    }
 }

@@ -119,6 +119,7 @@ fn bilinear(texture: &Texture, p: DVec2) -> Option<[f64; 4]> {
     if !p.is_finite() {
         return None;
     }
+    let p = texture.in_base(p);
     let [x, y] = texture.nearer;
     let (x, y) = (x.bring(p.x) - 0.5, y.bring(p.y) - 0.5);
     let (x0, y0) = (floor(x), floor(y));

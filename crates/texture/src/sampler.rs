@@ -1,3 +1,7 @@
+#[cfg(doc)]
+use crate::Probes;
+use crate::{Kernel, Magnify, Separable};
+
 /// How texels of one level make a colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum PixelFilter {
@@ -5,9 +9,19 @@ pub enum PixelFilter {
     Nearest,
     /// The four nearest texels, weighted by nearness. With [`LevelMode::Linear`] it is trilinear.
     Bilinear,
-    /// The elliptical weighted average: a Gaussian pixel projected into the texture.
+    /// Interpolation by a sharper kernel: a filter of a place, like bilinear.
+    Separable(Separable),
+    /// Trilinear probes in a row along the ellipse's major axis ([`Probes`]): at most ⌈2a − 1⌉ for
+    /// [`Sampler::max_eccentricity`] a, which counts up to 512 here. Far better than hardware's
+    /// anisotropic filter; across the row it blurs and aliases as trilinear does, and in scalar code it
+    /// is slower than the ellipse.
+    Probes,
+    /// The elliptical weighted average: [`Sampler::kernel`] projected into the texture.
     #[default]
     Ewa,
+    /// Enhanced EWA as Rutanen published it (2009), slower and less good than the other:
+    /// [`Sampler::CLASSIC`], for comparison.
+    Classic,
 }
 
 /// Which levels of the pyramid are read.
@@ -39,8 +53,13 @@ pub struct Sampler {
     pub pixel: PixelFilter,
     /// Which levels are read.
     pub level: LevelMode,
+    /// The pixel's filter. Elliptical filter only.
+    pub kernel: Kernel,
+    /// What is made of the texture where a pixel sees less than about a texel. Elliptical filter
+    /// and probes only.
+    pub magnify: Magnify,
     /// The largest ratio of the ellipse's axes; beyond it the *minor* axis is widened, which blurs
-    /// but never aliases. In 1…1024; what lies outside is clamped. Elliptical filter only.
+    /// but never aliases. In 1…1024; what lies outside is clamped. Elliptical filter and probes only.
     ///
     /// (The literature's word: it is the axis ratio, not the eccentricity of a conic.)
     pub max_eccentricity: f32,
@@ -60,6 +79,8 @@ impl Sampler {
     pub const FAST: Self = Self {
         pixel: PixelFilter::Ewa,
         level: LevelMode::Auto,
+        kernel: Kernel::Gaussian,
+        magnify: Magnify::None,
         max_eccentricity: 16.0,
         radius: 2.5,
         least_sigma: 0.5,
@@ -69,13 +90,29 @@ impl Sampler {
     pub const DEFAULT: Self =
         Self { max_eccentricity: 32.0, radius: 3.08, least_sigma: 0.6, blend: true, ..Self::FAST };
     /// For print and masters.
-    pub const HIGH: Self = Self { max_eccentricity: 64.0, least_sigma: 0.8, ..Self::DEFAULT };
+    pub const HIGH: Self =
+        Self { max_eccentricity: 64.0, least_sigma: 0.8, magnify: Magnify::Taps, ..Self::DEFAULT };
     /// Truth for tests: up to ten times the texels of the default, where the texture is far away.
     pub const REFERENCE: Self = Self {
         max_eccentricity: 1024.0,
         radius: 4.0,
         least_sigma: 1.5,
         blend: false,
+        ..Self::HIGH
+    };
+
+    /// Rutanen's enhanced EWA (2009) as published, for comparison: a triangle for what is minified and
+    /// Lanczos 2 for what is magnified, an axis ratio of 30, two levels everywhere.
+    ///
+    /// Heckbert's own (1989) is this with [`Kernel::Gaussian`], here cut at the pixel's radius of 1, and
+    /// [`Magnify::None`].
+    pub const CLASSIC: Self = Self {
+        pixel: PixelFilter::Classic,
+        kernel: Kernel::Triangle,
+        magnify: Magnify::Radial(Kernel::Lanczos2),
+        max_eccentricity: 30.0,
+        radius: 2.0,
+        least_sigma: 0.5,
         ..Self::DEFAULT
     };
 

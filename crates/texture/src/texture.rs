@@ -1,33 +1,40 @@
 use crate::batch;
-use crate::decimate::halve;
 use crate::engine::{Engine, Scalar, Vector};
 use crate::ewa::{self, Limits};
+use crate::format::{Alpha, Channels, Imported, Texels};
 use crate::level::{LARGEST, Level, stride};
-use crate::point::{self, bilinear, nearest};
+use crate::point::{self, Bilinear, Nearest};
+use crate::pyramid::{self, Bytes, Rows};
+use crate::texel::{self, Texel};
 use crate::wrap::Nearer;
 use crate::{
     Footprint, LevelMode, Levels, PixelFilter, Sampler, Simd, TextureError, TextureOptions, Wrap,
-    lod,
+    extra, lod,
 };
 use alloc::vec::Vec;
+use core::ops::Range;
 use fearless_simd::dispatch;
-use scumble_geometry::{DVec2, Homography};
-use scumble_pixel::srgb::decode8;
-use scumble_pixel::{ImageView, Premul, WorkingSpace};
+use scumble_geometry::{DVec2, Homography, Matrix2};
+use scumble_pixel::{Image, ImageView, Premul, WorkingSpace};
 
 /// An image made ready to be filtered: its pyramid, premultiplied, in the working space.
 ///
-/// Texels take 16 bytes each (four `f32`), rows are padded by three to eleven of them, and
-/// all levels together take a third more than the base:
+/// Texels take 8 bytes each (four numbers of 16 bits, in steps of 1/16,320), rows are padded by
+/// three to eighteen of them, and all levels together take a third more than the base:
 /// [`Texture::memory_for`] says it before anything is allocated.
 #[derive(Debug, Clone)]
 pub struct Texture {
+    /// Those that are kept.
     pub(crate) levels: Vec<Level>,
+    /// Columns and rows of the image.
+    size: [usize; 2],
+    /// From texels of the image to texels of the first level that is kept.
+    scale: [f64; 2],
     pub(crate) wrap: Wrap,
     space: WorkingSpace,
     average: [f32; 4],
     pub(crate) nearer: [Nearer; 2],
-    simd: Simd,
+    pub(crate) simd: Simd,
 }
 
 impl Texture {
@@ -40,32 +47,105 @@ impl Texture {
         image: ImageView<'_, [u8; 4]>,
         options: &TextureOptions,
     ) -> Result<Self, TextureError> {
-        let (width, height) = (image.width(), image.height());
+        Self::make(image, options, Vec::new())
+    }
+
+    /// The texture of another image, like [`Texture::new`], in the memory of this one where its levels
+    /// have the same sizes: for the frames of a film. Fresh memory costs about as much as the pyramid.
+    ///
+    /// # Errors
+    /// As for [`Texture::new`].
+    pub fn renewed(
+        self,
+        image: ImageView<'_, [u8; 4]>,
+        options: &TextureOptions,
+    ) -> Result<Self, TextureError> {
+        let simd = self.simd;
+        Ok(Self::make(image, options, self.levels)?.with_simd(simd))
+    }
+
+    fn make(
+        image: ImageView<'_, [u8; 4]>,
+        options: &TextureOptions,
+        old: Vec<Level>,
+    ) -> Result<Self, TextureError> {
+        let size = [image.width(), image.height()];
+        Self::check(size, options)?;
+        Self::over(levels(&Bytes::new(image, options.space), options, old)?, size, options)
+    }
+
+    /// A texture from an image in any of the formats that there are.
+    ///
+    /// # Errors
+    /// As for [`Texture::new`].
+    pub fn from_texels<P: Channels, A: Alpha>(
+        texels: &Texels<'_, P, A>,
+        options: &TextureOptions,
+    ) -> Result<Self, TextureError> {
+        Self::check(texels.size(), options)?;
+        let rows = Imported { texels, space: options.space };
+        Self::over(levels(&rows, options, Vec::new())?, texels.size(), options)
+    }
+
+    /// A texture whose every level is one colour, red, yellow, green, cyan, blue, magenta, white and
+    /// black in turn: it shows which level is read where, and a filter that reads one level over a
+    /// footprint gives one colour.
+    ///
+    /// # Errors
+    /// As for [`Texture::new`].
+    pub fn colored_levels(
+        width: usize,
+        height: usize,
+        options: &TextureOptions,
+    ) -> Result<Self, TextureError> {
+        Self::check([width, height], options)?;
+        let mut levels = pyramid_of(width, height, options, Vec::new())?;
+        for (l, level) in levels.iter_mut().enumerate() {
+            let [r, g, b] = LEVEL_COLORS[l % LEVEL_COLORS.len()];
+            level.texels.fill(texel::of_color([r, g, b, 1.0]));
+        }
+        Self::over(levels, [width, height], options)
+    }
+
+    /// Whether a texture of this size can be made.
+    fn check([width, height]: [usize; 2], options: &TextureOptions) -> Result<(), TextureError> {
         if width == 0 || height == 0 {
             return Err(TextureError::Empty);
         }
-        if Self::memory_for(width, height, options).is_none() {
-            return Err(TextureError::TooLarge { width, height });
+        match Self::memory_for(width, height, options) {
+            Some(_) => Ok(()),
+            None => Err(TextureError::TooLarge { width, height }),
         }
-        let mut levels = Vec::with_capacity(count(width, height, options.levels));
-        let base = decode(image, options.space)?;
-        levels.push(base);
-        while let Some(last) = levels.last()
-            && levels.len() < count(width, height, options.levels)
-        {
-            let next = halve(last, options.decimation, options.wrap)?;
-            levels.push(next.over([width, height], options.decimation.variance()));
-        }
-        let average = match &levels[..] {
-            [.., Level { width: 1, height: 1, texels, .. }] => texels[0],
-            _ => mean(&levels[0]),
+    }
+
+    /// The texture of all levels from the image on, of which it keeps those that are asked for.
+    fn over(
+        levels: Vec<Level>,
+        size: [usize; 2],
+        options: &TextureOptions,
+    ) -> Result<Self, TextureError> {
+        let first = kept(size[0], size[1], options.levels).start;
+        let TextureOptions { space, wrap, decimation, .. } = *options;
+        let mut levels: Vec<Level> = match levels.get(first) {
+            Some(base) if first > 0 => {
+                let base = [base.width, base.height];
+                let rest = levels.into_iter().skip(first);
+                rest.map(|l| l.over(base, decimation.variance())).collect()
+            }
+            _ => levels,
         };
-        let TextureOptions { space, wrap, .. } = *options;
+        let average = match &levels[..] {
+            [.., Level { width: 1, height: 1, texels, .. }] => texel::color(texels[0]),
+            [base, ..] => mean(base),
+            [] => return Err(TextureError::Empty),
+        };
         if wrap == Wrap::Repeat {
             levels.iter_mut().for_each(Level::make_tile);
         }
+        let [width, height] = [levels[0].width, levels[0].height];
         let nearer = [Nearer::new(wrap, width), Nearer::new(wrap, height)];
-        Ok(Self { levels, wrap, space, average, nearer, simd: Simd::best() })
+        let scale = [width as f64 / size[0] as f64, height as f64 / size[1] as f64];
+        Ok(Self { levels, size, scale, wrap, space, average, nearer, simd: Simd::best() })
     }
 
     /// The same texture, sampled with other instructions and the same results.
@@ -74,16 +154,16 @@ impl Texture {
         Self { simd, ..self }
     }
 
-    /// Columns of level 0.
+    /// Columns of the image, level 0.
     #[must_use]
     pub fn width(&self) -> usize {
-        self.levels[0].width
+        self.size[0]
     }
 
-    /// Rows of level 0.
+    /// Rows of the image, level 0.
     #[must_use]
     pub fn height(&self) -> usize {
-        self.levels[0].height
+        self.size[1]
     }
 
     /// The space that the texels are in, and the samples.
@@ -92,20 +172,22 @@ impl Texture {
         self.space
     }
 
-    /// Levels, the image itself included; at least 1.
+    /// Levels that are kept, the image itself included if it is; at least 1.
     #[must_use]
     pub fn level_count(&self) -> usize {
         self.levels.len()
     }
 
-    /// The texels of a level, premultiplied RGBA in the working space; `None` beyond the last.
+    /// A copy of the texels of a level, premultiplied RGBA in the working space, counted from the first
+    /// that is kept; `None` beyond the last.
     ///
-    /// Level l is ⌊width/2ˡ⌋ × ⌊height/2ˡ⌋ and at least 1×1. Kaiser levels may overshoot 0…1 by a
+    /// Of the whole pyramid level l is ⌊width/2ˡ⌋ × ⌊height/2ˡ⌋ and at least 1×1. Kaiser levels may overshoot 0…1 by a
     /// few hundredths at sharp edges, as any sharp filter does; samples never do.
     #[must_use]
-    pub fn level(&self, index: usize) -> Option<ImageView<'_, [f32; 4]>> {
+    pub fn level(&self, index: usize) -> Option<Image<[f32; 4]>> {
         let level = self.levels.get(index)?;
-        ImageView::new(level.width, level.height, level.stride, &level.texels).ok()
+        let stored = ImageView::new(level.width, level.height, level.stride, &level.texels).ok()?;
+        Some(stored.to_image().map(|t| texel::color(*t)))
     }
 
     /// Bytes of texels that this texture holds.
@@ -122,9 +204,9 @@ impl Texture {
             return None;
         }
         let mut bytes = 0usize;
-        for l in 0..count(width, height, options.levels) {
+        for l in kept(width, height, options.levels) {
             let texels = stride((width >> l).max(1)).checked_mul((height >> l).max(1))?;
-            bytes = bytes.checked_add(texels.checked_mul(size_of::<[f32; 4]>())?)?;
+            bytes = bytes.checked_add(texels.checked_mul(size_of::<Texel>())?)?;
         }
         isize::try_from(bytes).ok().map(isize::unsigned_abs)
     }
@@ -155,8 +237,22 @@ impl Texture {
         );
     }
 
-    /// Runs [`Texture::fill`] compiled for the chosen instructions.
+    /// Samples a run of footprints: by the fast paths, or by what is beside them.
+    #[inline(always)]
     fn dispatch(&self, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mut [Premul]) {
+        if extra::takes(s) {
+            return extra::fill(self, at, s, out);
+        }
+        self.fill_fast(at, s, out);
+    }
+
+    /// Runs [`Texture::fill`] compiled for the chosen instructions.
+    pub(crate) fn fill_fast(
+        &self,
+        at: impl Fn(usize) -> Footprint,
+        s: &Sampler,
+        out: &mut [Premul],
+    ) {
         match self.simd.0 {
             None => self.fill(Scalar, at, s, out),
             Some(level) => {
@@ -175,9 +271,13 @@ impl Texture {
         out: &mut [Premul],
     ) {
         match s.pixel {
-            PixelFilter::Nearest => return point::fill(self, at, point_mode(s), nearest, out),
-            PixelFilter::Bilinear => return point::fill(self, at, point_mode(s), bilinear, out),
-            PixelFilter::Ewa => (),
+            PixelFilter::Nearest => {
+                return point::fill(self, engine, at, point_mode(s), Nearest, out);
+            }
+            PixelFilter::Bilinear => {
+                return point::fill(self, engine, at, point_mode(s), Bilinear, out);
+            }
+            _ => (),
         }
         let limits = Limits::new(s);
         if s.level == LevelMode::Auto && out.len() >= batch::WORTH {
@@ -203,8 +303,8 @@ impl Texture {
         let each = match s.pixel {
             PixelFilter::Nearest => 1,
             PixelFilter::Bilinear => 4,
-            PixelFilter::Ewa if !f.is_bounded() => return 0,
-            PixelFilter::Ewa => return ewa::cost(self, &f, s.level, &Limits::new(s)),
+            _ if extra::takes(s) => return extra::cost(self, &f, s),
+            _ => return self.cost_fast(&f, s),
         };
         let step = f.longest_step_squared();
         let pick = lod::pick(step, lod::detail(step), point_mode(s), self.levels.len() - 1);
@@ -212,9 +312,30 @@ impl Texture {
         if two { 2 * each } else { each }
     }
 
-    /// The footprint with its centre brought near.
+    /// The same for the fast elliptical filter, the centre brought near.
+    pub(crate) fn cost_fast(&self, f: &Footprint, s: &Sampler) -> usize {
+        if f.is_bounded() { ewa::cost(self, f, s.level, &Limits::new(s)) } else { 0 }
+    }
+
+    /// A place in texels of the image, in texels of the first level that is kept.
+    pub(crate) fn in_base(&self, p: DVec2) -> DVec2 {
+        let [su, sv] = self.scale;
+        DVec2::new(p.x * su, p.y * sv)
+    }
+
+    /// The footprint in texels of the first level that is kept, which is what all filters below this
+    /// call level 0, with its centre brought near.
     #[inline(always)]
     pub(crate) fn nearer(&self, f: &Footprint) -> Footprint {
+        let [su, sv] = self.scale;
+        let Matrix2 { a, b, c, d } = f.jacobian;
+        let jacobian = Matrix2::new(a * su, b * su, c * sv, d * sv);
+        self.brought(&Footprint { u: f.u * su, v: f.v * sv, jacobian })
+    }
+
+    /// The footprint, which is in texels of the first level that is kept, with its centre brought near.
+    #[inline(always)]
+    pub(crate) fn brought(&self, f: &Footprint) -> Footprint {
         let [u, v] = &self.nearer;
         // A centre that is not finite stays so: ∞ − ∞ and 0·∞ are NaN, and NaN survives the sum.
         let lost = 0.0 * f.u + 0.0 * f.v;
@@ -228,7 +349,7 @@ impl Texture {
 }
 
 /// The level mode of nearest and bilinear, which have a best of their own.
-fn point_mode(s: &Sampler) -> LevelMode {
+pub(crate) fn point_mode(s: &Sampler) -> LevelMode {
     match (s.level, s.pixel) {
         (LevelMode::Auto, PixelFilter::Nearest) => LevelMode::Nearest,
         (LevelMode::Auto, _) => LevelMode::Linear,
@@ -236,46 +357,84 @@ fn point_mode(s: &Sampler) -> LevelMode {
     }
 }
 
-/// Levels of a pyramid over an image of this size.
-fn count(width: usize, height: usize, levels: Levels) -> usize {
+/// The levels to keep of a pyramid over an image of this size; at least one.
+fn kept(width: usize, height: usize, levels: Levels) -> Range<usize> {
+    let all = width.max(height).checked_ilog2().map_or(0, |l| l as usize + 1);
     match levels {
-        Levels::All => width.max(height).checked_ilog2().map_or(0, |l| l as usize + 1),
-        Levels::BaseOnly => 1,
+        Levels::All => 0..all,
+        Levels::BaseOnly => 0..all.min(1),
+        Levels::Range { first, last } => {
+            let first = first.min(all.saturating_sub(1));
+            first..last.saturating_add(1).clamp(first + 1, all.max(first + 1))
+        }
     }
 }
 
-/// Level 0: bytes to the working space, alpha multiplied in.
-fn decode(image: ImageView<'_, [u8; 4]>, space: WorkingSpace) -> Result<Level, TextureError> {
-    let table: [f32; 256] = core::array::from_fn(|code| match space {
-        WorkingSpace::Srgb => code as f32 / 255.0,
-        WorkingSpace::Linear => decode8(code as u8),
-    });
-    let mut base = Level::new(image.width(), image.height())?;
-    base.fill_rows(
-        0,
-        #[inline(always)]
-        |y, _, out| {
-            for (t, &[r, g, b, a]) in out.iter_mut().zip(image.row(y)) {
-                let alpha = f32::from(a) / 255.0;
-                let [r, g, b] = [r, g, b].map(|v| table[usize::from(v)] * alpha);
-                *t = [r, g, b, alpha];
-            }
-        },
-    );
-    Ok(base)
+/// Levels to be filled, from the image's size to the last that is kept, in the memory of others.
+fn pyramid_of(
+    width: usize,
+    height: usize,
+    options: &TextureOptions,
+    old: Vec<Level>,
+) -> Result<Vec<Level>, TextureError> {
+    let mut old = old.into_iter().map(|level| level.texels);
+    let level = |l: usize| {
+        let old = old.next().unwrap_or_default();
+        let level = Level::new((width >> l).max(1), (height >> l).max(1), old)?;
+        Ok(level.over([width, height], options.decimation.variance()))
+    };
+    (0..kept(width, height, options.levels).end).map(level).collect()
 }
 
-/// The mean texel; equal texels give themselves.
+/// The image and its pyramid, to the last level that is kept, in the memory of others.
+fn levels(
+    image: &impl Rows,
+    options: &TextureOptions,
+    old: Vec<Level>,
+) -> Result<Vec<Level>, TextureError> {
+    let TextureOptions { decimation, wrap, .. } = *options;
+    let (width, height) = (image.width(), image.height());
+    let mut levels = pyramid_of(width, height, options, old)?;
+    let made = match &mut levels[..] {
+        [base, next, ..] if height.is_multiple_of(2) => {
+            pyramid::store_and_halve(image, base, next, decimation, wrap);
+            2
+        }
+        [base, ..] => {
+            pyramid::store(image, base);
+            1
+        }
+        [] => 0,
+    };
+    for l in made..levels.len() {
+        let (fine, coarse) = levels.split_at_mut(l);
+        pyramid::halve(&fine[l - 1], &mut coarse[0], decimation, wrap);
+    }
+    Ok(levels)
+}
+
+/// The colours of [`Texture::colored_levels`].
+const LEVEL_COLORS: [[f32; 3]; 8] = [
+    [1.0, 0.0, 0.0],
+    [1.0, 1.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 1.0, 1.0],
+    [0.0, 0.0, 1.0],
+    [1.0, 0.0, 1.0],
+    [1.0, 1.0, 1.0],
+    [0.0, 0.0, 0.0],
+];
+
+/// The mean texel.
 fn mean(level: &Level) -> [f32; 4] {
-    let first = level.texels[0];
-    let mut sum = [0.0f64; 4];
+    let mut sum = [0i64; 4];
     for t in (0..level.height).flat_map(|y| level.row(y)) {
-        for c in 0..4 {
-            sum[c] += f64::from(t[c] - first[c]);
+        for (sum, t) in sum.iter_mut().zip(t) {
+            *sum += i64::from(*t);
         }
     }
     let n = level.width as f64 * level.height as f64;
-    core::array::from_fn(|c| first[c] + (sum[c] / n) as f32)
+    sum.map(|sum| (sum as f64 / n) as f32 * texel::STEP)
 }
 
 /// Takes off what a sharp pyramid overshoots: alpha to 0…1, colour to 0…alpha.

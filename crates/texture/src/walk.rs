@@ -4,20 +4,24 @@
 use crate::Wrap;
 use crate::covariance::Covariance;
 use crate::ewa::Limits;
-use crate::gaussian::gaussian;
+use crate::gaussian::{UNIT, weight};
 use crate::level::{Frame, Level};
-use crate::math::{floor, floor32, sqrt32};
+use crate::math::{floor, floor32, sqrt32, whole};
+use crate::texel::{STEP, Texel, of_color};
 
-/// Rows walked together, and texels of each: the sums are taken in lanes of this logical shape and
-/// folded in a fixed order, whatever the width of the machine's vectors. Four texels are one vector of
-/// sixteen floats, and most rows of most ellipses hold no more than four.
+/// Rows walked together, and texels of each. Their weights are one vector of sixteen floats, and most
+/// rows of most ellipses hold no more than four.
 pub(crate) const LANES: usize = 4;
+
+/// The determinant up to which an ellipse is [`Walk::small`]. On a grid, a Gaussian whose σ is √0.15 and
+/// more sums to at most 1.22 times its integral: here to 63,000, times texels of at most 20,400.
+const SMALL: f32 = 4.0;
 
 /// An ellipse in one level, ready to be walked.
 ///
 /// Texel (x0 + i, y0 + j) lies at dv = j − fy below the centre; the ellipse's middle in its row is at
-/// fx + slope·dv from x0, and with dx the distance from there the Gaussian's exponent is
-/// e = row_scale·dv² + run_scale·dx². Both terms are positive, so nothing cancels.
+/// fx + slope·dv from x0, and with dx the distance from there the Gaussian's exponent, in [`UNIT`]s,
+/// is e = row_scale·dv² + run_scale·dx². Both terms are positive, so nothing cancels.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Walk {
     /// The whole part of the centre, in index space.
@@ -38,14 +42,16 @@ pub(crate) struct Walk {
     pub(crate) run: f32,
     /// Σuv/Σvv: how the middle moves from row to row.
     pub(crate) slope: f32,
-    /// ½/Σvv.
+    /// ½/Σvv, in units.
     pub(crate) row_scale: f32,
-    /// ½Σvv/det Σ.
+    /// ½Σvv/det Σ, in units.
     pub(crate) run_scale: f32,
-    /// Weights with e above this are 0: ½R².
+    /// Weights with e above this are 0: ½R², in units.
     pub(crate) cut: f32,
     /// 1 if every texel of the walk lies inside the level, or in tiles that are as good, else 0.
     pub(crate) inside: i32,
+    /// 1 if the ellipse is so small that sums of weights times texels fit 31 bits, else 0.
+    pub(crate) small: i32,
 }
 
 impl Walk {
@@ -71,7 +77,7 @@ impl Walk {
         // are the numbers of the walk itself, which only grow or only fall with the row.
         let first = -floor32(rise - fy);
         let last = first + (4.0 * blocks - 1.0);
-        let start = |j: f32| floor32((fx + slope * (j - fy)) - run) + 1.0;
+        let start = |j: f32| floor32(slope * (j - fy) + (fx - run)) + 1.0;
         let (a, b) = (start(first), start(last));
         let (left, right) = (a.min(b), a.max(b) + 4.0 * groups);
         let inside = (x0 + f64::from(left) >= frame.low)
@@ -79,8 +85,8 @@ impl Walk {
             & (y0 + f64::from(first) >= frame.low)
             & (y0 + f64::from(last) < frame.size[1]);
         Self {
-            x0: x0 as i32,
-            y0: y0 as i32,
+            x0: whole(x0),
+            y0: whole(y0),
             fx,
             fy,
             first: first as i32,
@@ -88,11 +94,18 @@ impl Walk {
             groups: groups as i32,
             run,
             slope,
-            row_scale: 0.5 * inverse_vv,
-            run_scale: 0.5 * (vv / det),
+            row_scale: 0.5 * UNIT * inverse_vv,
+            run_scale: 0.5 * UNIT * (vv / det),
             cut: limits.cut,
             inside: i32::from(inside),
+            small: i32::from(det <= SMALL),
         }
+    }
+
+    /// The first row of a block.
+    #[inline(always)]
+    pub(crate) fn row_of(&self, block: i32) -> i32 {
+        self.first + block * LANES as i32
     }
 
     /// Blocks times groups of a walk inside its level; 0 if it is not.
@@ -106,13 +119,24 @@ impl Walk {
         self.blocks as usize * self.groups as usize * LANES * LANES
     }
 
-    /// The texel nearest to the centre. What is summed is the difference from it, so that a
-    /// constant texture comes out exact to the last bit.
-    #[inline(always)]
-    pub(crate) fn centre(&self, level: &Level, wrap: Wrap) -> [f32; 4] {
+    /// The texel nearest to the centre.
+    #[cold]
+    #[inline(never)]
+    fn centre(&self, level: &Level, wrap: Wrap) -> [f32; 4] {
         let right = i32::from(self.fx >= 0.5);
         let below = i32::from(self.fy >= 0.5);
         level.texel(self.x0 + right, self.y0 + below, wrap)
+    }
+
+    /// The colour, from the sums of the weights times texels and of the weights. Both are whole numbers
+    /// below 2⁵³, so the mean of equal texels is one of them.
+    #[inline(always)]
+    pub(crate) fn mean(&self, sums: [f64; 4], total: i32, level: &Level, wrap: Wrap) -> [f32; 4] {
+        if total <= 0 {
+            return self.centre(level, wrap);
+        }
+        let share = 1.0 / f64::from(total);
+        sums.map(|sum| (sum * share) as f32 * STEP)
     }
 
     /// Row `j` of the walk, as far as it can be found in the level.
@@ -130,7 +154,7 @@ impl Walk {
 /// A row of a level, or of the constant outside it.
 #[derive(Clone, Copy)]
 pub(crate) struct Row<'a> {
-    texels: Option<&'a [[f32; 4]]>,
+    texels: Option<&'a [Texel]>,
     /// Texels without the apron.
     width: usize,
     wrap: Wrap,
@@ -140,7 +164,7 @@ impl Row<'_> {
     /// Calls `f` with the [`LANES`] texels from column `x`: in place where they lie inside,
     /// collected where they do not.
     #[inline(always)]
-    pub(crate) fn with_run<R>(&self, x: i32, f: impl FnOnce(&[[f32; 4]; LANES]) -> R) -> R {
+    pub(crate) fn with_run<R>(&self, x: i32, f: impl FnOnce(&[Texel; LANES]) -> R) -> R {
         // Sizes are below 2²⁹. In a tile, every run begins in the row, and the apron ends it.
         let x = if self.wrap == Wrap::Repeat { x.rem_euclid(self.width as i32) } else { x };
         let inside = self.texels.and_then(|row| row.get(usize::try_from(x).ok()?..)?.first_chunk());
@@ -152,56 +176,41 @@ impl Row<'_> {
 
     #[cold]
     #[inline(never)]
-    fn collect(&self, x: i32) -> [[f32; 4]; LANES] {
+    fn collect(&self, x: i32) -> [Texel; LANES] {
         core::array::from_fn(|i| {
             let found = self
                 .texels
                 .and_then(|row| self.wrap.resolve(x + i as i32, self.width).map(|x| row[x]));
-            found.unwrap_or_else(|| self.wrap.border())
+            found.unwrap_or_else(|| of_color(self.wrap.border()))
         })
     }
 }
 
 /// The weighted average of the texels in the ellipse.
 ///
-/// Four rows at a time, and in them a group of four columns after the other. The texels' lanes are
-/// the columns of a group; the weights' lanes its rows, too.
+/// Weights are whole numbers, and so are texels: their sums are exact, and the order does not matter.
 pub(crate) fn walk(level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
-    let centre = w.centre(level, wrap);
-    let mut sums = [[0.0f32; 4]; LANES];
-    let mut weights = [[0.0f32; LANES]; LANES];
-    for block in 0..w.blocks {
-        for k in 0..w.groups {
-            for (r, totals) in weights.iter_mut().enumerate() {
-                let j = w.first + block * LANES as i32 + r as i32;
-                let dv = j as f32 - w.fy;
-                let e = w.row_scale * (dv * dv);
-                let middle = w.fx + w.slope * dv;
-                let start = floor32(middle - w.run) + 1.0;
-                let x = w.x0 + start as i32 + k * LANES as i32;
-                let run = w.row(j, level, wrap).with_run(x, |run| *run);
-                for i in 0..LANES {
-                    let dx = (start + (k * LANES as i32 + i as i32) as f32) - middle;
-                    let weight = weigh(e + w.run_scale * (dx * dx), w);
-                    totals[i] += weight;
-                    for c in 0..4 {
-                        sums[i][c] += weight * (run[i][c] - centre[c]);
-                    }
+    let mut sums = [0i64; 4];
+    let mut total = 0;
+    for (j, r) in (0..w.blocks).flat_map(|b| (0..LANES as i32).map(move |r| (w.row_of(b), r))) {
+        let dv = r as f32 + (j as f32 - w.fy);
+        let e = w.row_scale * (dv * dv);
+        let low = (w.slope * dv) + (w.fx - w.run);
+        let before = floor32(low);
+        let offset = (1.0 - w.run) - (low - before);
+        let row = w.row(j + r, level, wrap);
+        for k in (0..w.groups).map(|k| k * LANES as i32) {
+            let run = row.with_run(w.x0 + 1 + before as i32 + k, |run| *run);
+            for (i, texel) in run.iter().enumerate() {
+                let dx = (k + i as i32) as f32 + offset;
+                let e = e + w.run_scale * (dx * dx);
+                let weight = if e <= w.cut { weight(e) } else { 0 };
+                total += weight;
+                for (sum, t) in sums.iter_mut().zip(texel) {
+                    *sum += i64::from(weight) * i64::from(*t);
                 }
             }
         }
     }
-    let fold = |v: [f32; LANES]| (v[0] + v[2]) + (v[1] + v[3]);
-    let columns = core::array::from_fn(|i| fold(core::array::from_fn(|r| weights[r][i])));
-    let total = fold(columns);
-    if total <= 0.0 {
-        return centre;
-    }
-    core::array::from_fn(|c| centre[c] + fold(core::array::from_fn(|i| sums[i][c])) / total)
-}
-
-/// The weight at an exponent: nothing beyond the cut.
-#[inline(always)]
-fn weigh(e: f32, w: &Walk) -> f32 {
-    if e <= w.cut { gaussian(e) } else { 0.0 }
+    w.mean(sums.map(|sum| sum as f64), total, level, wrap)
 }

@@ -8,8 +8,8 @@ use proptest::prelude::*;
 use scumble_geometry::{DVec2, Homography, Matrix2};
 use scumble_pixel::{Premul, WorkingSpace};
 use scumble_texture::{
-    Decimation, Footprint, LevelMode, Levels, PixelFilter, Sampler, Simd, Texture, TextureOptions,
-    Wrap,
+    Decimation, Footprint, Kernel, LevelMode, Levels, Magnify, PixelFilter, Sampler, Separable,
+    Simd, Texture, TextureOptions, Wrap,
 };
 
 fn wraps() -> impl Strategy<Value = Wrap> {
@@ -24,14 +24,25 @@ fn wraps() -> impl Strategy<Value = Wrap> {
 fn options() -> impl Strategy<Value = TextureOptions> {
     let space = prop_oneof![Just(WorkingSpace::Srgb), Just(WorkingSpace::Linear)];
     let decimation = prop_oneof![Just(Decimation::Kaiser), Just(Decimation::Box)];
-    let levels = prop_oneof![4 => Just(Levels::All), 1 => Just(Levels::BaseOnly)];
+    let levels = prop_oneof![
+        4 => Just(Levels::All),
+        1 => Just(Levels::BaseOnly),
+        1 => (0usize..7, 0usize..7).prop_map(|(first, last)| Levels::Range { first, last }),
+    ];
     (space, wraps(), decimation, levels).prop_map(|(space, wrap, decimation, levels)| {
         TextureOptions { space, wrap, decimation, levels }
     })
 }
 
 fn samplers() -> impl Strategy<Value = Sampler> {
-    let pixel = prop_oneof![1 => Just(PixelFilter::Nearest), 1 => Just(PixelFilter::Bilinear), 3 => Just(PixelFilter::Ewa)];
+    let pixel = prop_oneof![
+        1 => Just(PixelFilter::Nearest),
+        1 => Just(PixelFilter::Bilinear),
+        1 => prop::sample::select(&Separable::ALL).prop_map(PixelFilter::Separable),
+        1 => Just(PixelFilter::Probes),
+        1 => Just(PixelFilter::Classic),
+        4 => Just(PixelFilter::Ewa)
+    ];
     let level = prop_oneof![
         1 => Just(LevelMode::Zero),
         1 => Just(LevelMode::Nearest),
@@ -39,7 +50,15 @@ fn samplers() -> impl Strategy<Value = Sampler> {
         3 => Just(LevelMode::Auto)
     ];
     let preset = prop_oneof![Just(Sampler::FAST), Just(Sampler::DEFAULT), Just(Sampler::HIGH)];
-    (pixel, level, preset).prop_map(|(pixel, level, preset)| preset.with(pixel, level))
+    let kernel = prop_oneof![2 => Just(Kernel::Gaussian), 1 => prop::sample::select(&Kernel::ALL)];
+    let magnify = prop_oneof![
+        2 => Just(Magnify::None),
+        2 => prop::sample::select(&Magnify::ALL),
+        1 => prop::sample::select(&Kernel::ALL).prop_map(Magnify::Radial),
+    ];
+    (pixel, level, preset, kernel, magnify).prop_map(|(pixel, level, preset, kernel, magnify)| {
+        Sampler { kernel, magnify, ..preset.with(pixel, level) }
+    })
 }
 
 /// Numbers of every size, and those that are none.
@@ -141,11 +160,12 @@ proptest! {
         [a, b, c, d] in [-9.0..9.0f64, -9.0..9.0f64, -9.0..9.0f64, -9.0..9.0f64],
     ) {
         let t = texture(48, 48, seed, &TextureOptions::default());
-        let s = Sampler::default();
-        let one = t.sample(&Footprint { u, v, jacobian: Matrix2::new(a, b, c, d) }, &s);
-        let mirrored = t.sample(&Footprint { u, v, jacobian: Matrix2::new(-a, b, -c, d) }, &s);
-        let swapped = t.sample(&Footprint { u, v, jacobian: Matrix2::new(b, a, d, c) }, &s);
-        prop_assert_eq!(one, mirrored);
-        prop_assert_eq!(one, swapped);
+        for (s, scale) in [(Sampler::DEFAULT, 1.0), (Sampler::HIGH, 1.0), (Sampler::HIGH, 0.1)] {
+            let [a, b, c, d] = [a, b, c, d].map(|v| v * scale);
+            let of = |a, b, c, d| t.sample(&Footprint { u, v, jacobian: Matrix2::new(a, b, c, d) }, &s);
+            let one = of(a, b, c, d);
+            prop_assert_eq!(one, of(-a, b, -c, d));
+            prop_assert_eq!(one, of(b, a, d, c));
+        }
     }
 }

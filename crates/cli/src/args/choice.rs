@@ -45,6 +45,10 @@ pub(crate) enum Shade {
 pub(crate) enum Pixel {
     /// Over the ellipse that the pixel covers
     Ewa,
+    /// By spots in a row along that ellipse
+    Probes,
+    /// Between the four nearest texels of each of two levels: bilinear with --level linear
+    Trilinear,
     /// Between the four nearest texels
     Bilinear,
     /// The nearest texel as it is

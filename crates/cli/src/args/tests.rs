@@ -48,8 +48,14 @@ fn every_option_is_read() {
         "grid",
         "--shade",
         "sample",
+        "--quality",
+        "high",
         "--pixel",
         "bilinear",
+        "--kernel",
+        "smooth",
+        "--magnify",
+        "lanczos2",
         "--level",
         "linear",
         "--max-eccentricity",
@@ -76,6 +82,7 @@ fn every_option_is_read() {
     ])
     .unwrap();
     assert_eq!(render.files.resources.len(), 2);
+    assert_eq!(render.quality.quality, Some("high"));
     assert_eq!(render.quality.pixel, Some(Pixel::Bilinear));
     assert_eq!(render.quality.level, Some(Level::Linear));
     assert_eq!(render.quality.pattern, Some(Pattern::Grid));
@@ -99,6 +106,8 @@ fn the_picture_is_named_once() {
 fn words_are_checked() {
     assert_eq!(render(&[]).unwrap_err(), ErrorKind::MissingRequiredArgument);
     assert_eq!(render(&["a", "--pixel", "cubic"]).unwrap_err(), ErrorKind::InvalidValue);
+    assert_eq!(render(&["a", "--quality", "best"]).unwrap_err(), ErrorKind::InvalidValue);
+    assert_eq!(render(&["a", "--kernel", "own"]).unwrap_err(), ErrorKind::InvalidValue);
     assert_eq!(render(&["a", "--samples", "3"]).unwrap_err(), ErrorKind::ValueValidation);
     assert_eq!(render(&["a", "--nonsense"]).unwrap_err(), ErrorKind::UnknownArgument);
 }

@@ -3,6 +3,8 @@
 //! Every reader takes the text of one argument and returns a sentence on what is wrong with it,
 //! to which the parser adds which argument it was.
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use scumble::texture::{Kernel, Magnify, Sampler};
 use std::num::ParseIntError;
 use std::str::FromStr;
 
@@ -32,6 +34,25 @@ const MAX_THREADS: usize = 4096;
 
 /// The largest zoom: from one pixel to the longest side that a PNG can have.
 const MAX_ZOOM: f64 = 2_147_483_647.0;
+
+/// The name of one of the filters' presets.
+pub(super) fn preset() -> impl TypedValueParser<Value = &'static str> {
+    let names = Sampler::PRESETS.map(|(name, _)| name);
+    PossibleValuesParser::new(names).try_map(move |word| {
+        names.into_iter().find(|name| *name == word).ok_or("no preset of this name")
+    })
+}
+
+/// The name of a kernel.
+pub(super) fn kernel() -> impl TypedValueParser<Value = Kernel> {
+    PossibleValuesParser::new(Kernel::ALL.map(Kernel::name)).try_map(|word| word.parse::<Kernel>())
+}
+
+/// The name of a way to magnify.
+pub(super) fn magnify() -> impl TypedValueParser<Value = Magnify> {
+    let names = Magnify::ALL.map(Magnify::name);
+    PossibleValuesParser::new(names).try_map(|word| word.parse::<Magnify>())
+}
 
 /// A side of a picture in pixels, at least 1.
 pub(super) fn length(text: &str) -> Result<u32, String> {

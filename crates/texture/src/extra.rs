@@ -1,0 +1,175 @@
+//! The samplers beside the fast ones: other kernels, magnification, probes, the classic method.
+//!
+//! Some footprints at a time; what the fast path can do of them it does.
+
+use crate::classic::Classic;
+use crate::radial::Radial;
+use crate::texture::{into_range, point_mode};
+use crate::{Footprint, Kernel, Magnify, PixelFilter, Sampler, Separable, Texture};
+use crate::{place, point, probes};
+use fearless_simd::dispatch;
+use scumble_pixel::Premul;
+
+/// Pixels at a time: the fast path has a start-up cost.
+const BATCH: usize = 64;
+
+/// The footprints of a batch: all of them, because the fast path sets up as many whatever it writes.
+type Footprints = [Footprint; BATCH];
+
+/// Whether a sampler is for this module.
+#[inline(always)]
+pub(crate) fn takes(s: &Sampler) -> bool {
+    match s.pixel {
+        PixelFilter::Nearest | PixelFilter::Bilinear => false,
+        PixelFilter::Ewa => s.kernel != Kernel::Gaussian || s.magnify != Magnify::None,
+        PixelFilter::Separable(_) | PixelFilter::Probes | PixelFilter::Classic => true,
+    }
+}
+
+/// Samples a run of footprints, compiled for the texture's instructions.
+pub(crate) fn fill(t: &Texture, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mut [Premul]) {
+    match t.simd.0 {
+        None => fill_impl(t, at, s, out),
+        Some(level) => dispatch!(level, _simd => fill_impl(t, at, s, out)),
+    }
+}
+
+#[inline(always)]
+fn fill_impl(t: &Texture, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mut [Premul]) {
+    let area = Area::new(s);
+    for (chunk, out) in out.chunks_mut(BATCH).enumerate() {
+        let mut footprints = [Footprint::point(0.0, 0.0); BATCH];
+        for (i, f) in footprints[..out.len()].iter_mut().enumerate() {
+            *f = at(chunk * BATCH + i);
+        }
+        area.fill(t, &footprints, s, out);
+    }
+}
+
+/// A filter, made ready.
+enum Area {
+    Gaussian,
+    Radial(Radial),
+    Classic(Classic),
+    /// At most so many.
+    Probes(u32),
+    /// None: a filter of the place.
+    Separable(Separable),
+}
+
+impl Area {
+    #[inline(always)]
+    fn new(s: &Sampler) -> Self {
+        match s.pixel {
+            PixelFilter::Separable(kernel) => return Self::Separable(kernel),
+            PixelFilter::Classic => return Self::Classic(Classic::new(s)),
+            PixelFilter::Probes => {
+                // In this order a NaN becomes 1.
+                let ratio = s.max_eccentricity.max(1.0);
+                return Self::Probes((2.0 * ratio.min(512.0) - 1.0) as u32);
+            }
+            _ => (),
+        }
+        match (s.kernel, s.magnify) {
+            (_, Magnify::Radial(_)) => Self::Radial(Radial::new(s)),
+            (Kernel::Gaussian, _) => Self::Gaussian,
+            _ => Self::Radial(Radial::new(s)),
+        }
+    }
+
+    /// The filter of the area, and of the place where that is magnified.
+    #[inline(always)]
+    fn fill(&self, t: &Texture, footprints: &Footprints, s: &Sampler, out: &mut [Premul]) {
+        let mut near = [0.0f32; BATCH];
+        if s.magnify.is_apart() && !matches!(self, Self::Separable(_)) {
+            for (near, f) in near.iter_mut().zip(footprints) {
+                *near = s.magnify.nearness(t.nearer(f).major_squared());
+            }
+        }
+        let near = &near[..out.len()];
+        if near.iter().any(|n| *n < 1.0) {
+            self.fill_area(t, footprints, s, out);
+        }
+        for ((out, f), &near) in out.iter_mut().zip(footprints).zip(near) {
+            if near > 0.0 {
+                let magnified = into_range(magnified(t, f, s.magnify));
+                *out = if near < 1.0 { mix(*out, magnified, near) } else { magnified };
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn fill_area(&self, t: &Texture, footprints: &Footprints, s: &Sampler, out: &mut [Premul]) {
+        match self {
+            Self::Gaussian => {
+                let s = Sampler { magnify: Magnify::None, ..*s };
+                t.fill_fast(|i| footprints[i], &s, out);
+            }
+            Self::Separable(kernel) => {
+                let mode = point_mode(s);
+                for (out, f) in out.iter_mut().zip(footprints) {
+                    let f = t.nearer(f);
+                    let color = || into_range(place::sample(t, &f, mode, *kernel));
+                    *out = if f.is_finite() { color() } else { t.average() };
+                }
+            }
+            Self::Radial(radial) => each(t, footprints, out, |f| radial.sample(t, f)),
+            Self::Classic(classic) => each(t, footprints, out, |f| classic.sample(t, f)),
+            Self::Probes(most) => {
+                let mode = point_mode(s);
+                each(t, footprints, out, |f| probes::sample(t, f, mode, *most));
+            }
+        }
+    }
+}
+
+/// Samples each footprint that is bounded; the others are the mean of the texture.
+#[inline(always)]
+fn each(
+    t: &Texture,
+    footprints: &Footprints,
+    out: &mut [Premul],
+    sample: impl Fn(&Footprint) -> [f32; 4],
+) {
+    for (out, f) in out.iter_mut().zip(footprints) {
+        let f = t.nearer(f);
+        *out = if f.is_finite() && f.is_bounded() { into_range(sample(&f)) } else { t.average() };
+    }
+}
+
+/// The magnified texture under a footprint.
+#[inline(always)]
+fn magnified(t: &Texture, f: &Footprint, magnify: Magnify) -> [f32; 4] {
+    let f = t.nearer(f);
+    if f.is_finite() { magnify.sample(&t.levels[0], t.wrap, &f) } else { t.average().0 }
+}
+
+/// a + (b − a)·t, no brighter than its alpha.
+#[inline(always)]
+fn mix(a: Premul, b: Premul, t: f32) -> Premul {
+    into_range(point::lerp(a.0, b.0, t))
+}
+
+/// Texels that a sample reads, those of weight 0 included; the centre has been brought near.
+pub(crate) fn cost(t: &Texture, f: &Footprint, s: &Sampler) -> usize {
+    let area = Area::new(s);
+    if let Area::Separable(kernel) = area {
+        return place::cost(t, f, point_mode(s), kernel);
+    }
+    let near = s.magnify.nearness(f.major_squared());
+    let magnified = if near > 0.0 { s.magnify.texels() } else { 0 };
+    if near >= 1.0 {
+        return magnified;
+    }
+    if !f.is_bounded() {
+        return 0;
+    }
+    magnified
+        + match area {
+            Area::Separable(_) => 0,
+            Area::Gaussian => t.cost_fast(f, &Sampler { magnify: Magnify::None, ..*s }),
+            Area::Radial(radial) => radial.cost(t, f),
+            Area::Classic(classic) => classic.cost(t, f),
+            Area::Probes(most) => probes::cost(t, f, point_mode(s), most),
+        }
+}

@@ -1,0 +1,94 @@
+//! Weights of one kernel, or of two blended, and the sums that they make.
+
+use crate::math::sqrt;
+use crate::{Kernel, Magnify, Sampler};
+
+/// The weights of one footprint.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Mixture {
+    kernel: Kernel,
+    /// The factor of its weights.
+    far: f32,
+    /// Beyond this r² its weights are 0: the Gaussian is cut where the sampler says.
+    cut: f32,
+    /// The kernel for magnification, and the factor of its weights.
+    magnified: Option<(Kernel, f32)>,
+}
+
+impl Mixture {
+    /// For a footprint that is so much magnified, in 0…1.
+    #[inline(always)]
+    pub(crate) fn new(s: &Sampler, nearness: f32) -> Self {
+        // In this order a NaN becomes the lower bound.
+        let sigmas = s.radius.max(2.0);
+        let cut = match s.kernel {
+            Kernel::Gaussian => 0.25 * sigmas.min(4.0) * sigmas.min(4.0),
+            other => other.radius() * other.radius(),
+        };
+        match s.magnify {
+            Magnify::Radial(kernel) if nearness > 0.0 => Self {
+                kernel: s.kernel,
+                far: (1.0 - nearness) / s.kernel.integral(),
+                cut,
+                magnified: Some((kernel, nearness / kernel.integral())),
+            },
+            _ => Self { kernel: s.kernel, far: 1.0, cut, magnified: None },
+        }
+    }
+
+    /// Where the weights end.
+    #[inline(always)]
+    pub(crate) fn radius(&self) -> f64 {
+        let other = self.magnified.map_or(0.0, |(kernel, _)| f64::from(kernel.radius()));
+        sqrt(f64::from(self.cut)).max(other)
+    }
+
+    /// The weight at a squared distance.
+    #[inline(always)]
+    pub(crate) fn weight(&self, r2: f32) -> f32 {
+        let far = if r2 <= self.cut { self.kernel.weight(r2) } else { 0.0 };
+        match self.magnified {
+            Some((kernel, near)) => near * kernel.weight(r2) + self.far * far,
+            None => far,
+        }
+    }
+}
+
+/// Below this part of the sum of the weights' magnitudes, their sum says nothing, and the texel in
+/// the middle is taken.
+const LEAST_SUM: f32 = 0.05;
+
+/// Σ w·(t − centre), Σ w and Σ |w|.
+pub(crate) struct Sums {
+    centre: [f32; 4],
+    texels: [f32; 4],
+    total: f32,
+    magnitude: f32,
+}
+
+impl Sums {
+    /// About a texel.
+    #[inline(always)]
+    pub(crate) fn new(centre: [f32; 4]) -> Self {
+        Self { centre, texels: [0.0; 4], total: 0.0, magnitude: 0.0 }
+    }
+
+    #[inline(always)]
+    pub(crate) fn add(&mut self, weight: f32, texel: [f32; 4]) {
+        self.total += weight;
+        self.magnitude += weight.abs();
+        for ((sum, texel), centre) in self.texels.iter_mut().zip(texel).zip(self.centre) {
+            *sum += weight * (texel - centre);
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn finish(self) -> [f32; 4] {
+        // Written so that two zeros, and a NaN, take the middle.
+        if self.total > LEAST_SUM * self.magnitude {
+            core::array::from_fn(|c| self.centre[c] + self.texels[c] / self.total)
+        } else {
+            self.centre
+        }
+    }
+}

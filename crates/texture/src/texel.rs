@@ -1,0 +1,80 @@
+//! How a level keeps its texels: 16 bits a channel.
+//!
+//! A texture is read far more often than its numbers need the digits of a float, and what a sample
+//! costs is above all the memory that it touches. So a channel is a whole number of steps of 1/16,320,
+//! sixty-four to each code of eight bits: codes are exact, and so are the sums of up to 64 of them that
+//! the box filter divides. Rounding to a step is noise at −95 dB.
+
+/// Premultiplied RGBA in the working space, in steps.
+pub(crate) type Texel = [i16; 4];
+
+/// 1.0, in steps.
+pub(crate) const ONE: f32 = 16_320.0;
+
+/// One step. [`ONE`] of them are 1 to the last bit.
+pub(crate) const STEP: f32 = 1.0 / ONE;
+
+/// The least and the largest that is kept. No single step of the sharp pyramid leaves −0.246…1.246.
+const LEAST: f32 = -0.25 * ONE;
+const MOST: f32 = 1.25 * ONE;
+
+/// 1.5·2²³: a float of this size holds whole numbers only, so a sum with it is rounded to one, halves
+/// to even, which then stands in its low bits.
+pub(crate) const ROUNDER: f32 = 12_582_912.0;
+
+/// The whole number of steps nearest to a channel in steps.
+#[inline(always)]
+pub(crate) fn round(v: f32) -> i16 {
+    // Comparisons in this form are one instruction each, and take a NaN to the bound.
+    let v = if v > LEAST { v } else { LEAST };
+    let v = if v < MOST { v } else { MOST };
+    (v + ROUNDER).to_bits() as i16
+}
+
+/// A channel in steps brought to a whole number of them, as it will be stored: what a level is made of
+/// must be what is stored, or a constant that lies half way between two steps goes either way.
+#[inline(always)]
+pub(crate) fn whole(v: f32) -> f32 {
+    (v + ROUNDER) - ROUNDER
+}
+
+/// The colour in steps of a texel.
+#[inline(always)]
+pub(crate) fn steps(t: Texel) -> [f32; 4] {
+    t.map(f32::from)
+}
+
+/// The colour of a texel.
+#[inline(always)]
+pub(crate) fn color(t: Texel) -> [f32; 4] {
+    t.map(|v| f32::from(v) * STEP)
+}
+
+/// The texel nearest to a colour.
+#[inline(always)]
+pub(crate) fn of_color(color: [f32; 4]) -> Texel {
+    color.map(|v| round(v * ONE))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_and_halves_are_exact() {
+        assert_eq!(ONE * STEP, 1.0);
+        for code in 0..=255u8 {
+            let value = f32::from(code) / 255.0;
+            let texel = of_color([value; 4]);
+            assert_eq!(texel, [i16::from(code) * 64; 4]);
+            assert!((color(texel)[0] - value).abs() < 1e-7);
+        }
+        assert_eq!(color(of_color([0.5, 0.25, 0.125, 1.0])), [0.5, 0.25, 0.125, 1.0]);
+    }
+
+    #[test]
+    fn rounding_is_to_the_nearest_and_stays_within() {
+        assert_eq!([0.4, 0.6, -0.6, 2.5].map(round), [0, 1, -1, 2]);
+        assert_eq!([-1e9, 1e9, f32::NAN, -0.0].map(round), [-4080, 20_400, -4080, 0]);
+    }
+}
