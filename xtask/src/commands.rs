@@ -85,6 +85,12 @@ pub(crate) fn assets(check: bool) -> Outcome {
     finish(&mut command, "lab assets")
 }
 
+/// Has the lab judge the texture filters and write the page, or compare it.
+pub(crate) fn quality(args: &[&str]) -> Outcome {
+    let run = ["run", "--release", "--quiet", "-p", "lab", "--bin", "quality", "--", "docs"];
+    finish(cargo(run).args(args), "quality")
+}
+
 /// `cargo bench` over the workspace with the given arguments.
 pub(crate) fn bench(args: &[&str]) -> Outcome {
     finish(cargo(["bench", "--workspace"]).args(args), "cargo bench")

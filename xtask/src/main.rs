@@ -19,6 +19,8 @@ cargo xtask COMMAND
   assets [--check]                    draw assets/ anew, or compare it with what the code draws
   golden [run|bless|report] [FILTER]  compare pictures with their references; accept what was
                                       rendered; write one page that shows them all
+  quality [--check] [--times]         judge the texture filters against brute force and write
+                                      docs/quality.md, or compare it; say what they take
   bench [ARGS]                        cargo bench over the workspace
   help                                this text
 ";
@@ -35,6 +37,7 @@ fn main() -> ExitCode {
         ["assets"] => commands::assets(false),
         ["assets", "--check"] => commands::assets(true),
         ["golden", rest @ ..] => golden::run(rest),
+        ["quality", rest @ ..] => commands::quality(rest),
         ["bench", rest @ ..] => commands::bench(rest),
         [] | ["help" | "--help" | "-h"] => {
             print!("{HELP}");

@@ -21,6 +21,7 @@ pub mod driver;
 pub mod exchange;
 pub mod map;
 mod math;
+pub mod quality;
 mod scenes;
 mod svg;
 mod textures;
@@ -53,7 +54,7 @@ pub enum LabError {
         source: std::io::Error,
     },
     /// Files that are missing, stale or not ours.
-    #[error("the assets differ from what the code draws:\n  {}", .0.join("\n  "))]
+    #[error("the files differ from what the code draws:\n  {}", .0.join("\n  "))]
     Different(Vec<String>),
 }
 
@@ -94,20 +95,32 @@ pub fn write(folder: &Path, files: &[Asset]) -> Result<(), LabError> {
     Ok(())
 }
 
+/// Compares some files below `folder` with what the code draws; what else stands there is no matter.
+///
+/// # Errors
+/// [`LabError::Different`] names every missing and stale file.
+pub fn check_files(folder: &Path, files: &[Asset]) -> Result<(), LabError> {
+    let wrong = stale(folder, files);
+    if wrong.is_empty() { Ok(()) } else { Err(LabError::Different(wrong)) }
+}
+
+/// A line for every file that is missing or has another content.
+fn stale(folder: &Path, files: &[Asset]) -> Vec<String> {
+    let differs = |file: &Asset| match std::fs::read(folder.join(&file.path)) {
+        Ok(found) if found == file.bytes => None,
+        Ok(_) => Some(format!("{}: stale", file.path)),
+        Err(_) => Some(format!("{}: missing", file.path)),
+    };
+    files.iter().filter_map(differs).collect()
+}
+
 /// Compares what stands below `folder` with what the code draws, byte for byte, both ways: a file
 /// that nothing draws is a difference too.
 ///
 /// # Errors
 /// [`LabError::Different`] names every missing, stale and foreign file.
 pub fn check(folder: &Path, files: &[Asset]) -> Result<(), LabError> {
-    let mut wrong = Vec::new();
-    for file in files {
-        match std::fs::read(folder.join(&file.path)) {
-            Ok(found) if found == file.bytes => {}
-            Ok(_) => wrong.push(format!("{}: stale", file.path)),
-            Err(_) => wrong.push(format!("{}: missing", file.path)),
-        }
-    }
+    let mut wrong = stale(folder, files);
     for found in list(folder)? {
         if !files.iter().any(|f| f.path == found) {
             wrong.push(format!("{found}: nothing draws it"));

@@ -11,6 +11,8 @@ mod world_outlines;
 
 use crate::canvas::Canvas;
 
+pub(crate) use font::inked;
+
 /// Every texture by name.
 pub(crate) fn all() -> Vec<(&'static str, Canvas)> {
     vec![
