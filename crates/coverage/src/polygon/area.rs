@@ -8,11 +8,11 @@
 //! an edge through the whole row, a chain of edges one below the other, or edges side by side that
 //! do not cross. The others are cut into strips (see [`super::strips`]).
 
-use super::rows::{ActiveEdge, PolygonScratch, Rows};
-use super::strips::Strips;
-use super::{Polygon, PolygonEdge};
+use super::gather::{Gathered, ROWS};
+use super::{Polygon, PolygonEdge, PolygonScratch};
 use crate::AreaSink;
-use crate::area::{AreaRow, CHUNK, GAP, ROW_CELLS, Reach, Slope, touched};
+use crate::area::{CHUNK, GAP, ROW_CELLS, Reach, Slope, touched};
+use alloc::vec::Vec;
 use core::cmp::Ordering;
 use fearless_simd::{Level, Simd, dispatch};
 use scumble_geometry::IntRect;
@@ -26,9 +26,6 @@ const CROWD: usize = 4096;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AreaEdge {
     pub(super) slope: Slope,
-    /// Heights in 1/256 pixel.
-    top: i32,
-    bottom: i32,
     pub(super) winding: i32,
     /// Within the row, in 1/256 pixel from its top.
     from: i32,
@@ -39,50 +36,52 @@ pub(super) struct AreaEdge {
     pub(super) pixels: (i32, i32),
 }
 
-impl From<PolygonEdge> for AreaEdge {
+/// An edge that crosses rows.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Source {
+    slope: Slope,
+    /// Heights in 1/256 pixel.
+    top: i32,
+    bottom: i32,
+    winding: i32,
+}
+
+impl From<PolygonEdge> for Source {
     #[inline(always)]
     fn from(e: PolygonEdge) -> Self {
         let slope = Slope::new(e.x0, e.y0, e.x1, e.y1);
-        Self {
-            slope,
-            top: e.y0,
-            bottom: e.y1,
-            winding: e.winding,
-            from: 0,
-            to: 0,
-            reach: Reach::NONE,
-            extent: [0.0; 2],
-            pixels: (0, 0),
-        }
+        Self { slope, top: e.y0, bottom: e.y1, winding: e.winding }
     }
 }
 
-impl ActiveEdge for AreaEdge {
+impl Source {
+    /// What there is of it in row `y` within the columns of `rect`; heights are rounded to `grain`.
     #[inline(always)]
-    fn bottom(&self) -> i32 {
-        self.bottom
-    }
-}
-
-impl AreaEdge {
-    /// Moves on to row `y` within the columns of `rect`; heights are rounded to `grain`.
-    #[inline(always)]
-    fn enter(&mut self, y: i32, grain: i32, rect: IntRect) {
+    fn enter(&self, y: i32, grain: i32, rect: IntRect) -> AreaEdge {
         let within = |height: i32| (height - y * 256).clamp(0, 256);
         let rounded = |height: i32| (within(height) + grain / 2) / grain * grain;
         let rounded = |height: i32| if grain == 1 { within(height) } else { rounded(height) };
-        (self.from, self.to) = (rounded(self.top), rounded(self.bottom));
-        let (start, end) = self.heights(y);
-        self.reach = self.slope.reach(start, end);
-        self.extent = self.reach.extent();
-        self.pixels = touched(self.extent, rect.x0, rect.x1);
+        let (from, to) = (rounded(self.top), rounded(self.bottom));
+        let (start, end) = heights(y, from, to);
+        let reach = self.slope.reach(start, end);
+        let extent = reach.extent();
+        let pixels = touched(extent, rect.x0, rect.x1);
+        AreaEdge { slope: self.slope, winding: self.winding, from, to, reach, extent, pixels }
     }
+}
 
+/// Heights in 1/256 pixel from the top of row `y`, in pixels.
+#[inline(always)]
+fn heights(y: i32, from: i32, to: i32) -> (f64, f64) {
+    let height = |within: i32| f64::from(y) + f64::from(within) * (1.0 / 256.0);
+    (height(from), height(to))
+}
+
+impl AreaEdge {
     /// The heights in pixels between which it runs in row `y`.
     #[inline(always)]
     pub(super) fn heights(&self, y: i32) -> (f64, f64) {
-        let height = |within: i32| f64::from(y) + f64::from(within) * (1.0 / 256.0);
-        (height(self.from), height(self.to))
+        heights(y, self.from, self.to)
     }
 
     /// From left to right at `self.from`, those that meet there as they go on; the same for two
@@ -170,56 +169,70 @@ impl Clipped<'_> {
         scratch: &mut PolygonScratch,
         sink: &mut impl AreaSink,
     ) {
-        let PolygonScratch { area_rows: rows, area, crossings, strips, .. } = scratch;
         let rect = self.rect;
-        area.start(rect.x0, rect.x1);
-        rows.start(self.polygon, rect);
+        scratch.area.start(rect.x0, rect.x1);
+        // Rows that are wholly inside are handed on together.
+        let mut inside_from = None;
         let mut y = rect.y0;
         while y < rect.y1 {
-            rows.advance(y);
-            let calm = rows.calm_until(y, rect.y1);
-            if calm > y {
-                if self.polygon.is_inside(rows.left) {
-                    sink.block(IntRect { y0: y, y1: calm, ..rect });
+            // The bands of the index begin at multiples of their height.
+            let end = ((y | (ROWS as i32 - 1)) + 1).min(rect.y1);
+            scratch.gathered.start(self.polygon, IntRect { y0: y, y1: end, ..rect });
+            let mut left = 0;
+            for row in 0..(end - y) as usize {
+                scratch.steps.clear();
+                left += scratch.gathered.left_side(row, &mut scratch.steps);
+                let next = left + scratch.steps.iter().map(|s| s.1).sum::<i32>();
+                let y = y + row as i32;
+                let calm = scratch.gathered.rows[row].is_empty() && scratch.steps.is_empty();
+                if calm && self.polygon.is_inside(left) {
+                    inside_from.get_or_insert(y);
+                } else if let Some(from) = inside_from.take() {
+                    sink.block(IntRect { y0: from, y1: y, ..rect });
                 }
-                y = calm;
-                continue;
+                if !calm {
+                    self.row::<S, PLAIN>(simd, y, left, row, scratch, sink);
+                }
+                left = next;
             }
-            self.enter_row(y, rows);
-            self.row::<S, PLAIN>(simd, y, rows, (crossings, strips, area), sink);
-            area.finish(simd, y, sink);
-            y += 1;
+            y = end;
+        }
+        if let Some(from) = inside_from {
+            sink.block(IntRect { y0: from, ..rect });
         }
     }
 
-    /// Finds where the edges lie in row `y`, and sorts them from left to right.
+    /// The edges of row `y`, from left to right.
     #[inline(always)]
-    fn enter_row(&self, y: i32, rows: &mut Rows<AreaEdge>) {
-        let grain = (rows.active.len() / CROWD).max(1).next_power_of_two().min(256) as i32;
-        for e in &mut rows.active {
-            e.enter(y, grain, self.rect);
-        }
-        sort(&mut rows.active, |a, b| a.extent[0].total_cmp(&b.extent[0]));
+    fn enter_row(&self, y: i32, row: usize, gathered: &Gathered, met: &mut Vec<AreaEdge>) {
+        let places = &gathered.rows[row];
+        let grain = (places.len() / CROWD).max(1).next_power_of_two().min(256) as i32;
+        met.clear();
+        met.extend(places.iter().map(|&i| gathered.edges[i as usize].enter(y, grain, self.rect)));
+        sort(met, |a, b| a.extent[0].total_cmp(&b.extent[0]));
     }
 
-    /// Adds one row of pixels to the sums, cluster by cluster.
+    /// Hands on row `y`, summed cluster by cluster; `left` is the winding number at the left side of
+    /// its top.
     #[inline(always)]
     fn row<S: Simd, const PLAIN: bool>(
         &self,
         simd: S,
         y: i32,
-        rows: &Rows<AreaEdge>,
-        (crossings, strips, area): (&mut Crossings, &mut Strips, &mut AreaRow),
+        left: i32,
+        row: usize,
+        scratch: &mut PolygonScratch,
         sink: &mut impl AreaSink,
     ) {
-        let mut winding = rows.left;
-        let steps = rows.steps();
+        let PolygonScratch { gathered, met, steps, area, crossings, strips, .. } = scratch;
+        self.enter_row(y, row, gathered, met);
+        let mut winding = left;
         area.begin(if steps.is_empty() && self.polygon.is_inside(winding) { 1.0 } else { 0.0 });
-        for &(height, change) in steps {
-            crossings.add(height - y * 256, change);
+        for &(height, change) in &*steps {
+            crossings.add(height, change);
         }
-        let mut edges = &rows.active[..];
-        let mut steps = steps;
+        let mut edges = &met[..];
+        let mut steps = &steps[..];
         while !edges.is_empty() || !steps.is_empty() {
             let (cluster, others) = edges.split_at(cluster(edges, crossings));
             let after = winding + net(cluster);
@@ -254,6 +267,7 @@ impl Clipped<'_> {
             (edges, winding, steps) = (others, after, &[]);
         }
         crossings.clear();
+        area.finish(simd, y, sink);
     }
 
     /// The weight of the first edge and that of the others, if the cluster is a plain one.
