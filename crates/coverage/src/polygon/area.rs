@@ -93,6 +93,16 @@ impl AreaEdge {
     }
 }
 
+/// The edges of a row.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Entered {
+    /// From left to right.
+    met: Vec<AreaEdge>,
+    unsorted: Vec<AreaEdge>,
+    /// The leftmost x and the place of each.
+    order: Vec<(f64, u32)>,
+}
+
 /// At which heights inside a row the winding number right of the edges so far differs from that at
 /// its top.
 #[derive(Debug, Clone)]
@@ -204,12 +214,23 @@ impl Clipped<'_> {
 
     /// The edges of row `y`, from left to right.
     #[inline(always)]
-    fn enter_row(&self, y: i32, row: usize, gathered: &Gathered, met: &mut Vec<AreaEdge>) {
+    fn enter_row(&self, y: i32, row: usize, gathered: &Gathered, entered: &mut Entered) {
         let places = &gathered.rows[row];
         let grain = (places.len() / CROWD).max(1).next_power_of_two().min(256) as i32;
+        let Entered { met, unsorted, order } = entered;
+        let enter = |&i: &u32| gathered.edges[i as usize].enter(y, grain, self.rect);
         met.clear();
-        met.extend(places.iter().map(|&i| gathered.edges[i as usize].enter(y, grain, self.rect)));
-        sort(met, |a, b| a.extent[0].total_cmp(&b.extent[0]));
+        met.extend(places.iter().map(enter));
+        if met.is_sorted_by(|a, b| a.extent[0] <= b.extent[0]) {
+            return;
+        }
+        // The edges are large: only their places are moved about.
+        core::mem::swap(met, unsorted);
+        order.clear();
+        order.extend((0..).zip(&*unsorted).map(|(i, e)| (e.extent[0], i)));
+        sort(order, |a: &(f64, u32), b| a.0.total_cmp(&b.0));
+        met.clear();
+        met.extend(order.iter().map(|&(_, i)| unsorted[i as usize]));
     }
 
     /// Hands on row `y`, summed cluster by cluster; `left` is the winding number at the left side of
@@ -224,14 +245,14 @@ impl Clipped<'_> {
         scratch: &mut PolygonScratch,
         sink: &mut impl AreaSink,
     ) {
-        let PolygonScratch { gathered, met, steps, area, crossings, strips, .. } = scratch;
-        self.enter_row(y, row, gathered, met);
+        let PolygonScratch { gathered, entered, steps, area, crossings, strips, .. } = scratch;
+        self.enter_row(y, row, gathered, entered);
         let mut winding = left;
         area.begin(if steps.is_empty() && self.polygon.is_inside(winding) { 1.0 } else { 0.0 });
         for &(height, change) in &*steps {
             crossings.add(height, change);
         }
-        let mut edges = &met[..];
+        let mut edges = &entered.met[..];
         let mut steps = &steps[..];
         while !edges.is_empty() || !steps.is_empty() {
             let (cluster, others) = edges.split_at(cluster(edges, crossings));
@@ -408,6 +429,49 @@ mod tests {
                 });
                 prop_assert_eq!(short, long);
             }
+        }
+
+        #[test]
+        fn a_clip_of_many_edges_changes_nothing(
+            points in prop::collection::vec((-600..20_000i32, -200..9000i32), 100..300),
+            reach in 1..5000i32,
+            even_odd in any::<bool>(),
+            (width, height, dx, dy) in (5..30i32, 5..40i32, 0..5i32, 0..5i32),
+        ) {
+            // Short edges and long ones.
+            let mut builder = Polygon::builder();
+            let mut at = FixedPoint { x: 0, y: 0 };
+            for (i, p) in points.iter().enumerate() {
+                let near = |from: i32, to: i32| from + (to - from).clamp(-reach, reach);
+                at = if i % 50 == 0 {
+                    FixedPoint { x: p.0, y: p.1 }
+                } else {
+                    FixedPoint { x: near(at.x, p.0), y: near(at.y, p.1) }
+                };
+                builder.push(at);
+            }
+            builder.close();
+            let rule = if even_odd { FillRule::EvenOdd } else { FillRule::NonZero };
+            let Some(polygon) = builder.finish(rule) else { return Ok(()) };
+            let bounds = polygon.bounds();
+            let mut scratch = PolygonScratch::default();
+            let mut areas = |regions: &mut dyn Iterator<Item = IntRect>| {
+                let mut all = Areas::default();
+                for region in regions.filter(|r| !r.is_empty()) {
+                    polygon.rasterize_area(region, Level::new(), &mut scratch, &mut all);
+                }
+                all.0.retain(|p| p.2 > 0.0);
+                all.0.sort_by_key(|p| (p.1, p.0));
+                all
+            };
+            let whole = areas(&mut core::iter::once(bounds));
+            let mut tiles = Vec::new();
+            for y in (bounds.y0 - dy..bounds.y1).step_by(height as usize) {
+                for x in (bounds.x0 - dx..bounds.x1).step_by(width as usize) {
+                    tiles.push(IntRect::new(x, y, x + width, y + height).intersect(&bounds));
+                }
+            }
+            prop_assert_eq!(whole, areas(&mut tiles.into_iter()));
         }
     }
 }

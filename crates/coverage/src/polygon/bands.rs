@@ -1,6 +1,7 @@
 //! An index of edges: which of them meet a band of rows.
 
 use super::PolygonEdge;
+use super::gather::LeftSide;
 use alloc::{vec, vec::Vec};
 
 /// The least height of a band: 2⁴ rows.
@@ -21,6 +22,91 @@ pub(super) struct Bands {
     /// Per band, where its edges begin in the list, and the end of them all.
     starts: Vec<u32>,
     edges: Vec<PolygonEdge>,
+    /// Only where there are many edges in low bands.
+    columns: Option<Columns>,
+}
+
+/// Edges of a band between two marks, at least; more where the steps to keep are more.
+const STRIDE: usize = 32;
+
+/// An index of the edges of each band from left to right: by their rightmost x.
+#[derive(Debug, Clone)]
+struct Columns {
+    /// Per band, where its marks begin in the list, and the end of them all.
+    starts: Vec<u32>,
+    /// In the order of the edges, and one at the end of them.
+    marks: Vec<Mark>,
+    /// The changes of the winding number (height in 1/256 pixel, change) right of all edges before
+    /// a mark, mark after mark.
+    steps: Vec<(i32, i32)>,
+}
+
+/// A place in the list of edges.
+#[derive(Debug, Clone, Copy)]
+struct Mark {
+    edge: u32,
+    /// Where its steps begin.
+    step: u32,
+    /// The leftmost x of the edges from here on, to the end of the band.
+    left: i32,
+}
+
+impl Columns {
+    /// Sorts the edges of each band.
+    fn new(shift: u32, first: i32, starts: &[u32], edges: &mut [PolygonEdge]) -> Option<Self> {
+        let crowded = starts.windows(2).any(|s| (s[1] - s[0]) as usize > 2 * STRIDE);
+        if shift != LEAST_SHIFT || !crowded {
+            return None;
+        }
+        let mut columns =
+            Self { starts: Vec::with_capacity(starts.len()), marks: Vec::new(), steps: Vec::new() };
+        let mut side = LeftSide::default();
+        for (b, range) in starts.windows(2).enumerate() {
+            let top = (first + b as i32) << (8 + shift);
+            columns.starts.push(columns.marks.len() as u32);
+            let band = &mut edges[range[0] as usize..range[1] as usize];
+            band.sort_unstable_by_key(PolygonEdge::right);
+            columns.mark(band, range[0], top, &mut side);
+        }
+        columns.starts.push(columns.marks.len() as u32);
+        columns.push_mark(edges.len() as u32, i32::MAX);
+        Some(columns)
+    }
+
+    fn push_mark(&mut self, edge: u32, left: i32) {
+        self.marks.push(Mark { edge, step: self.steps.len() as u32, left });
+    }
+
+    /// Marks a band that begins at height `top` and at edge `first` of the list.
+    fn mark(&mut self, band: &[PolygonEdge], first: u32, top: i32, side: &mut LeftSide) {
+        side.clear();
+        let from = self.marks.len();
+        self.push_mark(first, i32::MAX);
+        let (mut marked, mut wanted) = (0, STRIDE);
+        for (i, e) in band.iter().enumerate() {
+            if i == wanted {
+                let before = self.steps.len();
+                self.push_mark(first + i as u32, i32::MAX);
+                side.each(|height, change| self.steps.push((height + top, change)));
+                // So that there are no more steps than edges.
+                if self.steps.len() - before > i - marked {
+                    self.steps.truncate(before);
+                    self.marks.pop();
+                } else {
+                    marked = i;
+                }
+                wanted += STRIDE;
+            }
+            side.add_edge(e, top, top + LeftSide::HEIGHT);
+        }
+        let mut left = i32::MAX;
+        let mut end = band.len();
+        for mark in self.marks[from..].iter_mut().rev() {
+            let start = (mark.edge - first) as usize;
+            left = band[start..end].iter().map(PolygonEdge::left).fold(left, i32::min);
+            (mark.left, end) = (left, start);
+        }
+    }
 }
 
 impl Bands {
@@ -30,7 +116,7 @@ impl Bands {
         let first = y0 >> shift;
         let count = (((y1 - 1) >> shift) - first + 1) as usize;
         if count == 1 {
-            return Self { shift, first, starts: vec![0, edges.len() as u32], edges };
+            return Self::sorted(shift, first, vec![0, edges.len() as u32], edges);
         }
         let range = |e: &PolygonEdge| {
             let band = |y: i32| ((y >> (8 + shift)) - first) as usize;
@@ -54,23 +140,78 @@ impl Bands {
         }
         starts.rotate_right(1);
         starts[0] = 0;
-        Self { shift, first, starts, edges: listed }
+        Self::sorted(shift, first, starts, listed)
     }
 
-    /// Each edge that meets the heights `top..bottom` (1/256 pixel) once, in no order.
+    fn sorted(shift: u32, first: i32, starts: Vec<u32>, mut edges: Vec<PolygonEdge>) -> Self {
+        let columns = Columns::new(shift, first, &starts, &mut edges);
+        Self { shift, first, starts, edges, columns }
+    }
+
+    /// Hands on each edge that meets the heights `top..bottom` and does not lie wholly left of
+    /// `left` or right of `right`, in no order. Those left of `left` are added to `side`, which
+    /// begins at `top`. The heights lie within a band of the least height.
     #[inline(always)]
-    pub(super) fn edges_in(&self, top: i32, bottom: i32) -> impl Iterator<Item = &PolygonEdge> {
+    pub(super) fn each_between(
+        &self,
+        (top, bottom): (i32, i32),
+        (left, right): (i32, i32),
+        side: &mut LeftSide,
+        mut meet: impl FnMut(&PolygonEdge),
+    ) {
+        let mut look = |e: &PolygonEdge| {
+            if e.right() <= left {
+                side.add_edge(e, top, bottom);
+            } else if e.left() <= right {
+                meet(e);
+            }
+        };
+        let Some(columns) = &self.columns else {
+            return self.each_in(top, bottom, |e| {
+                look(e);
+                true
+            });
+        };
+        let b = ((top >> (8 + self.shift)) - self.first) as usize;
+        let (from, end) = (columns.starts[b] as usize, columns.starts[b + 1] as usize);
+        let passed = |mark: &Mark| self.edges[mark.edge as usize - 1].right() <= left;
+        let from = from + columns.marks[from + 1..end].partition_point(passed);
+        let marks = &columns.marks[from..=end];
+        let mut meets = |e: &PolygonEdge| {
+            if e.y0 < bottom && e.y1 > top {
+                look(e);
+            }
+        };
+        for pair in marks.windows(2).take_while(|pair| pair[0].left <= right) {
+            self.edges[pair[0].edge as usize..pair[1].edge as usize].iter().for_each(&mut meets);
+        }
+        for &(height, change) in &columns.steps[marks[0].step as usize..marks[1].step as usize] {
+            side.add(height.clamp(top, bottom) - top, change);
+        }
+    }
+
+    /// Hands on each edge that meets the heights `top..bottom` (1/256 pixel) once, in no order,
+    /// as long as it is wanted.
+    #[inline(always)]
+    pub(super) fn each_in(
+        &self,
+        top: i32,
+        bottom: i32,
+        mut wants: impl FnMut(&PolygonEdge) -> bool,
+    ) {
         let shift = 8 + self.shift;
         let count = self.starts.len() as i32 - 1;
         let band = |y: i32| ((y >> shift) - self.first).clamp(0, count - 1) as usize;
         let (from, to) = (band(top), band(bottom - 1));
-        (from..=to).flat_map(move |b| {
+        for b in from..=to {
             // Those that begin above it were listed in the band before.
             let begin = if b == from { i32::MIN } else { (self.first + b as i32) << shift };
-            self.edges[self.starts[b] as usize..self.starts[b + 1] as usize]
-                .iter()
-                .filter(move |e| e.y0 >= begin && e.y0 < bottom && e.y1 > top)
-        })
+            for e in &self.edges[self.starts[b] as usize..self.starts[b + 1] as usize] {
+                if e.y0 >= begin && e.y0 < bottom && e.y1 > top && !wants(e) {
+                    return;
+                }
+            }
+        }
     }
 }
 
@@ -104,7 +245,11 @@ mod tests {
             let bands = Bands::new(edges.clone(), y0, y1);
             prop_assert!(bands.edges.len() <= 3 * edges.len() + SLACK);
             let (top, bottom) = (top << stretch, (top + height) << stretch);
-            let mut found: Vec<_> = bands.edges_in(top, bottom).map(|e| e.x0).collect();
+            let mut found = Vec::new();
+            bands.each_in(top, bottom, |e| {
+                found.push(e.x0);
+                true
+            });
             found.sort_unstable();
             let expected: Vec<_> =
                 edges.iter().filter(|e| e.y0 < bottom && e.y1 > top).map(|e| e.x0).collect();

@@ -1,8 +1,8 @@
 //! What area coverage needs to know of a few rows of a clip: the edges that meet each of them, and
 //! the winding number at their left side.
 
-use super::Polygon;
 use super::area::Source;
+use super::{Polygon, PolygonEdge};
 use alloc::{vec, vec::Vec};
 use core::ops::Range;
 use scumble_geometry::IntRect;
@@ -14,7 +14,7 @@ pub(super) const ROWS: usize = 1 << super::bands::LEAST_SHIFT;
 ///
 /// Those wholly left of the clip only tell the winding number at its left side: they become a step
 /// function of the height. Those right of it do not matter.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Gathered {
     /// Edges within the clip's columns.
     pub(super) edges: Vec<Source>,
@@ -23,9 +23,9 @@ pub(super) struct Gathered {
     left: LeftSide,
 }
 
-/// The winding number at the left side of a clip.
+/// How the winding number changes along the left side of a clip.
 #[derive(Debug, Clone)]
-struct LeftSide {
+pub(super) struct LeftSide {
     /// By how much it changes at each height, in 1/256 pixel from the top; the last is beyond the
     /// clip.
     changes: Vec<i32>,
@@ -33,13 +33,9 @@ struct LeftSide {
     marked: [u64; ROWS * 4 + 1],
 }
 
-impl Default for Gathered {
+impl Default for LeftSide {
     fn default() -> Self {
-        Self {
-            edges: Vec::new(),
-            rows: Default::default(),
-            left: LeftSide { changes: vec![0; ROWS * 256 + 1], marked: [0; ROWS * 4 + 1] },
-        }
+        Self { changes: vec![0; Self::HEIGHT as usize + 1], marked: [0; ROWS * 4 + 1] }
     }
 }
 
@@ -51,19 +47,15 @@ impl Gathered {
         self.rows.iter_mut().for_each(Vec::clear);
         self.left.clear();
         let (top, bottom) = (clip.y0 * 256, clip.y1 * 256);
-        let (left, right) = (clip.x0 * 256, clip.x1 * 256 - 1);
-        for e in polygon.bands.edges_in(top, bottom) {
+        let columns = (clip.x0 * 256, clip.x1 * 256 - 1);
+        let Self { edges, rows, left } = self;
+        polygon.bands.each_between((top, bottom), columns, left, |e| {
             let (from, to) = (e.y0.max(top) - top, e.y1.min(bottom) - top);
-            if e.right() <= left {
-                self.left.add(from, e.winding);
-                self.left.add(to, -e.winding);
-            } else if e.left() <= right {
-                let index = self.edges.len() as u32;
-                self.edges.push(Source::from(*e));
-                let rows = (from >> 8) as usize..((to - 1) >> 8) as usize + 1;
-                self.rows[rows].iter_mut().for_each(|row| row.push(index));
-            }
-        }
+            let index = edges.len() as u32;
+            edges.push(Source::from(*e));
+            let range = (from >> 8) as usize..((to - 1) >> 8) as usize + 1;
+            rows[range].iter_mut().for_each(|row| row.push(index));
+        });
     }
 
     /// The change of the winding number at the top of a row, counted from the first; those strictly
@@ -87,14 +79,42 @@ impl Gathered {
 }
 
 impl LeftSide {
+    /// How far it reaches, in 1/256 pixel.
+    pub(super) const HEIGHT: i32 = ROWS as i32 * 256;
+
     #[inline(always)]
-    fn add(&mut self, height: i32, change: i32) {
+    pub(super) fn add(&mut self, height: i32, change: i32) {
         let height = height as usize;
         self.changes[height] += change;
         self.marked[height / 64] |= 1 << (height % 64);
     }
 
-    fn clear(&mut self) {
+    /// Adds an edge between the heights `top` and `bottom`.
+    #[inline(always)]
+    pub(super) fn add_edge(&mut self, e: &PolygonEdge, top: i32, bottom: i32) {
+        self.add(e.y0.max(top) - top, e.winding);
+        self.add(e.y1.min(bottom) - top, -e.winding);
+    }
+
+    /// Names the heights of all changes but the one at the very end, and forgets those that came to
+    /// nothing.
+    pub(super) fn each(&mut self, mut name: impl FnMut(i32, i32)) {
+        for (word, bits) in self.marked.iter_mut().enumerate().take(ROWS * 4) {
+            let mut left = *bits;
+            while left != 0 {
+                let height = word * 64 + left.trailing_zeros() as usize;
+                let change = self.changes[height];
+                if change == 0 {
+                    *bits &= !(1 << (height % 64));
+                } else {
+                    name(height as i32, change);
+                }
+                left &= left - 1;
+            }
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
         for (word, bits) in self.marked.iter_mut().enumerate() {
             while *bits != 0 {
                 self.changes[word * 64 + bits.trailing_zeros() as usize] = 0;

@@ -181,17 +181,21 @@ impl Polygon {
         if levels.any(|l| l.left <= right && l.right > left) {
             return Cover::Partial;
         }
-        let mut winding = 0;
-        for e in self.bands.edges_in(top, bottom) {
+        let (mut winding, mut crossed) = (0, false);
+        self.bands.each_in(top, bottom, |e| {
             if e.left() > right {
-                continue;
+                return true;
             }
             let side = if e.right() <= left { Some(Side::Left) } else { side(e, rect) };
-            let Some(side) = side else { return Cover::Partial };
+            crossed = side.is_none();
             // No edge crosses the rectangle, so the winding number is that of its corner.
-            if side == Side::Left && e.y0 <= top && top < e.y1 {
+            if side == Some(Side::Left) && e.y0 <= top && top < e.y1 {
                 winding += e.winding;
             }
+            !crossed
+        });
+        if crossed {
+            return Cover::Partial;
         }
         if self.is_inside(winding) { Cover::Full } else { Cover::None }
     }

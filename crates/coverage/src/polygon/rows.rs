@@ -2,7 +2,7 @@
 
 use super::{Polygon, PolygonEdge};
 use crate::area::AreaRow;
-use crate::polygon::area::{AreaEdge, Crossings};
+use crate::polygon::area::{Crossings, Entered};
 use crate::polygon::gather::Gathered;
 use crate::polygon::samples::RowWinding;
 use crate::polygon::strips::Strips;
@@ -15,7 +15,7 @@ pub(crate) struct PolygonScratch {
     pub(super) rows: Rows,
     pub(super) winding: RowWinding,
     pub(super) gathered: Gathered,
-    pub(super) met: Vec<AreaEdge>,
+    pub(super) entered: Entered,
     pub(super) steps: Vec<(i32, i32)>,
     pub(super) area: AreaRow,
     pub(super) crossings: Crossings,
@@ -56,14 +56,15 @@ impl Rows {
         self.steps.clear();
         self.edges.clear();
         self.active.clear();
-        for e in polygon.bands.edges_in(top, bottom) {
+        polygon.bands.each_in(top, bottom, |e| {
             if e.right() <= clip.x0 * 256 {
                 self.steps.push((e.y0, e.winding));
                 self.steps.push((e.y1, -e.winding));
             } else if e.left() < clip.x1 * 256 {
                 self.edges.push(*e);
             }
-        }
+            true
+        });
         self.edges.sort_unstable_by_key(|e| e.y0);
         self.steps.sort_unstable();
         merge(&mut self.steps);

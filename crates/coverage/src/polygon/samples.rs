@@ -82,9 +82,11 @@ impl Polygon {
                 let mut mask = 0;
                 for (s, o) in pattern.offsets().iter().enumerate() {
                     let (sx, sy) = (x * 256 + i32::from(o[0]), y * 256 + i32::from(o[1]));
-                    let edges = self.bands.edges_in(sy, sy + 1);
-                    let left = |e: &&PolygonEdge| e.y0 <= sy && sy < e.y1 && e.crossing(sy) <= sx;
-                    let winding = edges.filter(left).map(|e| e.winding).sum();
+                    let mut winding = 0;
+                    self.bands.each_in(sy, sy + 1, |e| {
+                        winding += if e.crossing(sy) <= sx { e.winding } else { 0 };
+                        true
+                    });
                     mask |= u64::from(self.is_inside(winding)) << s;
                 }
                 emit(sink, pattern, (x, y), SampleMask(mask));
