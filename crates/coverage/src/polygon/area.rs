@@ -356,7 +356,8 @@ fn net(edges: &[AreaEdge]) -> i32 {
 }
 
 /// Sorts what is nearly sorted.
-pub(super) fn sort<T>(values: &mut [T], order: impl Fn(&T, &T) -> Ordering) {
+#[inline(always)]
+pub(super) fn sort<T: Copy>(values: &mut [T], order: impl Fn(&T, &T) -> Ordering) {
     // Few, or hardly any out of place: insertion. Otherwise not.
     if values.len() > 32 {
         if !values.is_sorted_by(|a, b| order(a, b).is_le()) {
@@ -365,13 +366,13 @@ pub(super) fn sort<T>(values: &mut [T], order: impl Fn(&T, &T) -> Ordering) {
         return;
     }
     for i in 1..values.len() {
+        let value = values[i];
         let mut j = i;
-        while j > 0 && order(&values[j - 1], &values[i]).is_gt() {
+        while j > 0 && order(&values[j - 1], &value).is_gt() {
+            values[j] = values[j - 1];
             j -= 1;
         }
-        if j < i {
-            values[j..=i].rotate_right(1);
-        }
+        values[j] = value;
     }
 }
 
@@ -433,10 +434,10 @@ mod tests {
 
         #[test]
         fn a_clip_of_many_edges_changes_nothing(
-            points in prop::collection::vec((-600..20_000i32, -200..9000i32), 100..300),
-            reach in 1..5000i32,
+            points in prop::collection::vec((-600..200_000i32, -200..9000i32), 100..300),
+            reach in 1..20_000i32,
             even_odd in any::<bool>(),
-            (width, height, dx, dy) in (5..30i32, 5..40i32, 0..5i32, 0..5i32),
+            (width, height, dx, dy) in (20..90i32, 5..40i32, 0..5i32, 0..5i32),
         ) {
             // Short edges and long ones.
             let mut builder = Polygon::builder();

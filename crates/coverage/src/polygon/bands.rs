@@ -3,6 +3,7 @@
 use super::PolygonEdge;
 use super::gather::LeftSide;
 use alloc::{vec, vec::Vec};
+use scumble_geometry::IntRect;
 
 /// The least height of a band: 2⁴ rows.
 pub(super) const LEAST_SHIFT: u32 = 4;
@@ -22,9 +23,13 @@ pub(super) struct Bands {
     /// Per band, where its edges begin in the list, and the end of them all.
     starts: Vec<u32>,
     edges: Vec<PolygonEdge>,
-    /// Only where there are many edges in low bands.
+    /// Only of a wide polygon with many edges in low bands.
     columns: Option<Columns>,
 }
+
+/// In a polygon no wider than this, in pixels, it takes less time to look at all edges of a band
+/// for each tile than to sort them.
+const NARROW: u32 = 512;
 
 /// Edges of a band between two marks, at least; more where the steps to keep are more.
 const STRIDE: usize = 32;
@@ -110,13 +115,15 @@ impl Columns {
 }
 
 impl Bands {
-    /// Lists edges that meet the rows `y0..y1` and no others.
-    pub(super) fn new(edges: Vec<PolygonEdge>, y0: i32, y1: i32) -> Self {
+    /// Lists edges that lie within `bounds`.
+    pub(super) fn new(edges: Vec<PolygonEdge>, bounds: IntRect) -> Self {
+        let IntRect { y0, y1, .. } = bounds;
+        let is_wide = bounds.width() > NARROW;
         let shift = shift(&edges, y0, y1);
         let first = y0 >> shift;
         let count = (((y1 - 1) >> shift) - first + 1) as usize;
         if count == 1 {
-            return Self::sorted(shift, first, vec![0, edges.len() as u32], edges);
+            return Self::sorted(shift, first, vec![0, edges.len() as u32], edges, is_wide);
         }
         let range = |e: &PolygonEdge| {
             let band = |y: i32| ((y >> (8 + shift)) - first) as usize;
@@ -140,11 +147,17 @@ impl Bands {
         }
         starts.rotate_right(1);
         starts[0] = 0;
-        Self::sorted(shift, first, starts, listed)
+        Self::sorted(shift, first, starts, listed, is_wide)
     }
 
-    fn sorted(shift: u32, first: i32, starts: Vec<u32>, mut edges: Vec<PolygonEdge>) -> Self {
-        let columns = Columns::new(shift, first, &starts, &mut edges);
+    fn sorted(
+        shift: u32,
+        first: i32,
+        starts: Vec<u32>,
+        mut edges: Vec<PolygonEdge>,
+        is_wide: bool,
+    ) -> Self {
+        let columns = if is_wide { Columns::new(shift, first, &starts, &mut edges) } else { None };
         Self { shift, first, starts, edges, columns }
     }
 
@@ -242,7 +255,7 @@ mod tests {
             }).collect();
             let y0 = edges.iter().map(|e| e.y0 >> 8).min().unwrap_or(0);
             let y1 = edges.iter().map(|e| ((e.y1 - 1) >> 8) + 1).max().unwrap_or(0);
-            let bands = Bands::new(edges.clone(), y0, y1);
+            let bands = Bands::new(edges.clone(), IntRect::new(0, y0, 40, y1));
             prop_assert!(bands.edges.len() <= 3 * edges.len() + SLACK);
             let (top, bottom) = (top << stretch, (top + height) << stretch);
             let mut found = Vec::new();

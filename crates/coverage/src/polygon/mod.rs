@@ -87,6 +87,7 @@ impl PolygonBuilder {
     /// Pushes all points of a contour, if all lie inside the guard band; else none.
     pub(crate) fn push_snapped(&mut self, contour: &[DVec2]) -> bool {
         self.contour.reserve(contour.len());
+        self.edges.reserve(contour.len());
         for &p in contour {
             let Some(p) = FixedPoint::snap(p) else {
                 self.contour.clear();
@@ -138,7 +139,7 @@ impl PolygonBuilder {
         }
         let bounds = owning_pixels(x0, y0, x1, y1);
         let edge_count = self.edges.len();
-        let bands = Bands::new(self.edges, bounds.y0, bounds.y1);
+        let bands = Bands::new(self.edges, bounds);
         Some(Polygon { bands, edge_count, levels: self.levels, bounds, rule })
     }
 }

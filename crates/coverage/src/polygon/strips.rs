@@ -208,7 +208,7 @@ impl Live {
 
     /// What lies right of the edge down to `y`, less what does so down to where the weight began. They
     /// differ by the whole height or not at all, save in the pixels that the edge touches in between.
-    #[inline]
+    #[inline(always)]
     fn flush<S: Simd>(&self, simd: S, y: f64, area: &mut AreaRow) {
         if self.weight == 0 || self.since >= y {
             return;
