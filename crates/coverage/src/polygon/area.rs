@@ -218,10 +218,15 @@ impl Clipped<'_> {
         let places = &gathered.rows[row];
         let grain = (places.len() / CROWD).max(1).next_power_of_two().min(256) as i32;
         let Entered { met, unsorted, order } = entered;
-        let enter = |&i: &u32| gathered.edges[i as usize].enter(y, grain, self.rect);
         met.clear();
-        met.extend(places.iter().map(enter));
-        if met.is_sorted_by(|a, b| a.extent[0] <= b.extent[0]) {
+        let (mut sorted, mut before) = (true, f64::NEG_INFINITY);
+        for &i in places {
+            let edge = gathered.edges[i as usize].enter(y, grain, self.rect);
+            sorted &= before <= edge.extent[0];
+            before = edge.extent[0];
+            met.push(edge);
+        }
+        if sorted {
             return;
         }
         // The edges are large: only their places are moved about.

@@ -125,12 +125,18 @@ impl Strips {
     /// Drops the edges that end at `top` and takes in those that begin there.
     #[inline(always)]
     fn retire_and_admit<S: Simd>(&mut self, simd: S, top: f64, area: &mut AreaRow) {
-        self.live.retain(|e| {
-            if e.end <= top {
-                e.flush(simd, e.end, area);
+        // Not by a closure, which would not be compiled for the instruction set.
+        let mut kept = 0;
+        for i in 0..self.live.len() {
+            let edge = self.live[i];
+            if edge.end <= top {
+                edge.flush(simd, edge.end, area);
+            } else {
+                self.live[kept] = edge;
+                kept += 1;
             }
-            e.end > top
-        });
+        }
+        self.live.truncate(kept);
         while let Some(edge) = self.waiting.pop_if(|e| e.start <= top) {
             self.live.push(edge);
         }
