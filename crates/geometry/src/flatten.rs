@@ -167,8 +167,8 @@ impl Flatness {
     /// their chords can stand for them; none for a curve in perspective.
     ///
     /// A chord over a range h of the parameter leaves the curve by at most h²/8 times its largest
-    /// second derivative, which is N(N − 1) times the largest second difference of the control
-    /// points (Wang, Chen, "Computing the subdivision number of Bézier curves").
+    /// second derivative, which is d(d − 1) times the largest second difference of the control
+    /// points, d being its degree (Wang, Chen, "Computing the subdivision number of Bézier curves").
     fn pieces<const N: usize>(&self, curve: &[DVec3; N]) -> Option<u32> {
         let w = curve[0].z;
         if w < self.near_w || curve.iter().any(|p| p.z != w) {
