@@ -2,7 +2,7 @@ use scumble::coverage::SamplePattern;
 use scumble::geometry::IntRect;
 use scumble::pixel::WorkingSpace;
 use scumble::texture::{LevelMode, PixelFilter};
-use scumble::{Background, Interpolation, Settings, Shading};
+use scumble::{Antialias, Background, Interpolation, Settings, Shading};
 use scumble_svg::{Profile, ProfileChoice};
 
 /// What to render: a scene and the options that the command line would take.
@@ -14,6 +14,7 @@ use scumble_svg::{Profile, ProfileChoice};
 /// | `profile` | `auto`, `svg`, `course` | `auto` |
 /// | `samples` | a number that the pattern has | 16; 1 in the course profile |
 /// | `pattern` | `standard`, `grid` | `standard`; `grid` in the course profile |
+/// | `aa` | `samples`, `area` | `samples` |
 /// | `shade` | `pixel`, `sample` | `pixel` |
 /// | `pixel` | `ewa`, `bilinear`, `nearest` | `ewa`; `nearest` in the course profile |
 /// | `level` | `auto`, `zero`, `nearest`, `linear` | `auto`; `zero` in the course profile |
@@ -35,6 +36,7 @@ pub struct Case {
     grid: Option<bool>,
     pixel: Option<PixelFilter>,
     level: Option<LevelMode>,
+    aa: Antialias,
     shade: Shading,
     space: WorkingSpace,
     interpolate: Interpolation,
@@ -55,6 +57,7 @@ impl Case {
             grid: None,
             pixel: None,
             level: None,
+            aa: Antialias::default(),
             shade: Shading::default(),
             space: WorkingSpace::default(),
             interpolate: Interpolation::default(),
@@ -100,6 +103,10 @@ impl Case {
             }
             "pattern" => {
                 self.grid = Some(one_of(value, &[("standard", false), ("grid", true)])?);
+            }
+            "aa" => {
+                let ways = [("samples", Antialias::Samples), ("area", Antialias::Area)];
+                self.aa = one_of(value, &ways)?;
             }
             "shade" => {
                 let ways = [("pixel", Shading::Pixel), ("sample", Shading::Sample)];
@@ -155,6 +162,7 @@ impl Case {
         };
         settings.sampler =
             settings.sampler.with(self.pixel.unwrap_or(pixel), self.level.unwrap_or(level));
+        settings.antialias = self.aa;
         settings.shading = self.shade;
         settings.space = self.space;
         settings.interpolation = self.interpolate;

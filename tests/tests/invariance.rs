@@ -6,7 +6,7 @@ use scumble::coverage::SamplePattern;
 use scumble::geometry::IntRect;
 use scumble::pixel::Image;
 use scumble::scene::Scene;
-use scumble::{Settings, render_image};
+use scumble::{Antialias, Settings, render_image};
 use scumble_tests::{Case, load, scene_names};
 use std::process::ExitCode;
 
@@ -35,6 +35,8 @@ fn check(name: &str) -> Result<(), String> {
     let parsed = load(&case)?;
     let own = case.settings(parsed.profile)?;
     check_scene(&parsed.scene, &own)?;
+    check_scene(&parsed.scene, &Settings { antialias: Antialias::Area, ..own.clone() })
+        .map_err(|error| format!("by area: {error}"))?;
     if own.pattern.len() == 1 {
         let pattern = SamplePattern::standard(4).map_err(|e| e.to_string())?;
         check_scene(&parsed.scene, &Settings { pattern, ..own })?;

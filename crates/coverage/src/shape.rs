@@ -50,6 +50,10 @@ impl Shape {
     ) -> Result<Option<Self>, CoverageError> {
         let mut builder = Polygon::builder();
         for contour in contours {
+            if builder.push_snapped(contour) {
+                builder.close();
+                continue;
+            }
             if let Some(&bad) = contour.iter().find(|p| !p.is_finite()) {
                 return Err(CoverageError::NotFinite(bad));
             }
@@ -59,7 +63,20 @@ impl Shape {
             }
             builder.close();
         }
+        if let Some(corners) = builder.triangle() {
+            return Ok(Triangle::new(corners).map(|t| Self(Kind::Triangle(t))));
+        }
         Ok(builder.finish(rule).map(|p| Self(Kind::Polygon(Box::new(p)))))
+    }
+
+    /// How many edges the outline has that cross rows, once snapped: what it costs to draw, apart
+    /// from the pixels.
+    #[must_use]
+    pub fn edge_count(&self) -> usize {
+        match &self.0 {
+            Kind::Triangle(_) => 3,
+            Kind::Polygon(p) => p.edge_count(),
+        }
     }
 
     /// The pixels that can own a sample: no other does, whatever the pattern.

@@ -152,16 +152,14 @@ impl Visibility {
             self.keys[i] = key;
         } else if mask != 0 && seen != key {
             self.keys[i] = MIXED;
-            let groups = &mut self.mixed[i * self.groups..][..self.groups];
-            if seen != MIXED {
-                groups.fill([seen; GROUP]);
-            }
             let mut bits = mask;
-            for group in groups {
+            for group in &mut self.mixed[i * self.groups..][..self.groups] {
                 // Selected, not stored where needed: vectors have no branches.
-                for (sample, bit) in group.iter_mut().zip([1, 2, 4, 8]) {
-                    *sample = if bits as u32 & bit != 0 { key } else { *sample };
+                let mut below = if seen == MIXED { *group } else { [seen; GROUP] };
+                for (sample, bit) in below.iter_mut().zip([1, 2, 4, 8]) {
+                    *sample = if bits & bit != 0 { key } else { *sample };
                 }
+                *group = below;
                 bits >>= GROUP;
             }
         }

@@ -4,8 +4,8 @@ use crate::paint::{Paint, Textured};
 use crate::{Antialias, Interpolation, Settings};
 use scumble_coverage::Shape;
 use scumble_geometry::{
-    Affine, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Ramp, Rect, clip_segment,
-    line_quad,
+    Affine, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Path, PathElement, Ramp, Rect,
+    clip_segment, line_quad,
 };
 use scumble_pixel::{Premul, Straight};
 use scumble_scene::{
@@ -196,8 +196,13 @@ impl Planner<'_> {
     }
 
     fn fill(&mut self, fill: &Fill) {
-        let contours = fill.path.flatten(&self.canvas_map(&fill.transform), FLATNESS);
+        let to_canvas = self.canvas_map(&fill.transform);
         let paint = Paint::Solid(self.import(fill.color));
+        if let Some(corners) = triangle(&fill.path) {
+            let corners = corners.map(|p| to_canvas.project_homogeneous(p));
+            return self.push_shape(Shape::projective(&corners, to_canvas.near_w()), paint);
+        }
+        let contours = fill.path.flatten(&to_canvas, FLATNESS);
         self.push_contours(&contours, fill.rule, paint);
     }
 
@@ -340,6 +345,17 @@ impl Planner<'_> {
         let surface = self.plan.surfaces.get(image.0).and_then(Option::as_ref);
         let opaque = opacity >= 1.0 && surface.is_some_and(|surface| surface.opaque);
         Paint::Textured(Box::new(Textured { map, surface: image.0, sampler, opacity, opaque }))
+    }
+}
+
+/// The corners of a path that is a triangle and nothing else.
+fn triangle(path: &Path) -> Option<[DVec2; 3]> {
+    use PathElement::{Close, LineTo, MoveTo};
+    match *path.elements() {
+        [MoveTo(a), LineTo(b), LineTo(c)] | [MoveTo(a), LineTo(b), LineTo(c), Close] => {
+            Some([a, b, c])
+        }
+        _ => None,
     }
 }
 

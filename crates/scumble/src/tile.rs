@@ -29,6 +29,9 @@ const LEAST_PART: u32 = 16;
 /// How many large opaque primitives make the division worth its while.
 const SPLIT_FROM: usize = 3;
 
+/// The most edges of an outline that is drawn in pieces without a second thought.
+const SIMPLE: usize = 16;
+
 /// What stands for the background where keys tell what is seen; after it come the primitives.
 const BACKGROUND: u32 = 0;
 
@@ -146,6 +149,12 @@ impl Local<'_> {
         2 * seen.width() * seen.height() > part.width() * part.height()
             && self.draw.paint.is_opaque()
     }
+
+    /// Whether its outline is so long that to draw it in pieces takes more time than to draw over
+    /// it.
+    fn is_intricate(&self) -> bool {
+        matches!(&self.draw.form, Form::Shape(shape) if shape.edge_count() > SIMPLE)
+    }
 }
 
 /// What all primitives of a tile come to. (Looking at them all, one right after the other, also
@@ -235,14 +244,25 @@ impl Replay<'_> {
         self.work.lists.push(touching);
     }
 
-    /// Whether dividing a part of a tile may hide primitives. Layers are laid over each other by
-    /// the whole tile, so it takes a list without any.
+    /// Whether dividing a part of a tile may hide primitives, and more of them than it costs to draw
+    /// the others in pieces. Layers are laid over each other by the whole tile, so it takes a list
+    /// without any.
     fn worth_dividing(&self, part: IntRect, list: &[u32]) -> bool {
-        let local = |&i: &u32| &self.locals[i as usize];
-        let large = list.iter().map(local).filter(|local| local.is_large(part));
-        part.width().max(part.height()) > LEAST_PART
-            && large.take(SPLIT_FROM).count() == SPLIT_FROM
-            && list.iter().map(local).all(|local| local.draw.layer == 0)
+        if part.width().max(part.height()) <= LEAST_PART {
+            return false;
+        }
+        let (mut large, mut intricate) = (0, 0);
+        for local in list.iter().map(|&i| &self.locals[i as usize]) {
+            if local.draw.layer != 0 {
+                return false;
+            }
+            if local.is_intricate() {
+                intricate += 1;
+            } else {
+                large += usize::from(local.is_large(part));
+            }
+        }
+        large >= SPLIT_FROM && large >= 2 * intricate
     }
 
     fn draw(&mut self, index: u32, part: IntRect) {

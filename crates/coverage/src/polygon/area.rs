@@ -8,11 +8,11 @@
 //! an edge through the whole row, a chain of edges one below the other, or edges side by side that
 //! do not cross. The others are cut into strips (see [`super::strips`]).
 
-use super::rows::{ActiveEdge, PolygonScratch, Rows};
-use super::strips::Strips;
-use super::{Polygon, PolygonEdge};
+use super::gather::{Gathered, ROWS};
+use super::{Polygon, PolygonEdge, PolygonScratch};
 use crate::AreaSink;
-use crate::area::{AreaRow, CHUNK, GAP, ROW_CELLS, Reach, Slope, touched};
+use crate::area::{CHUNK, GAP, ROW_CELLS, Reach, Slope, touched};
+use alloc::vec::Vec;
 use core::cmp::Ordering;
 use fearless_simd::{Level, Simd, dispatch};
 use scumble_geometry::IntRect;
@@ -26,9 +26,6 @@ const CROWD: usize = 4096;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AreaEdge {
     pub(super) slope: Slope,
-    /// Heights in 1/256 pixel.
-    top: i32,
-    bottom: i32,
     pub(super) winding: i32,
     /// Within the row, in 1/256 pixel from its top.
     from: i32,
@@ -39,50 +36,52 @@ pub(super) struct AreaEdge {
     pub(super) pixels: (i32, i32),
 }
 
-impl From<PolygonEdge> for AreaEdge {
+/// An edge that crosses rows.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Source {
+    slope: Slope,
+    /// Heights in 1/256 pixel.
+    top: i32,
+    bottom: i32,
+    winding: i32,
+}
+
+impl From<PolygonEdge> for Source {
     #[inline(always)]
     fn from(e: PolygonEdge) -> Self {
         let slope = Slope::new(e.x0, e.y0, e.x1, e.y1);
-        Self {
-            slope,
-            top: e.y0,
-            bottom: e.y1,
-            winding: e.winding,
-            from: 0,
-            to: 0,
-            reach: Reach::NONE,
-            extent: [0.0; 2],
-            pixels: (0, 0),
-        }
+        Self { slope, top: e.y0, bottom: e.y1, winding: e.winding }
     }
 }
 
-impl ActiveEdge for AreaEdge {
+impl Source {
+    /// What there is of it in row `y` within the columns of `rect`; heights are rounded to `grain`.
     #[inline(always)]
-    fn bottom(&self) -> i32 {
-        self.bottom
-    }
-}
-
-impl AreaEdge {
-    /// Moves on to row `y` within the columns of `rect`; heights are rounded to `grain`.
-    #[inline(always)]
-    fn enter(&mut self, y: i32, grain: i32, rect: IntRect) {
+    fn enter(&self, y: i32, grain: i32, rect: IntRect) -> AreaEdge {
         let within = |height: i32| (height - y * 256).clamp(0, 256);
         let rounded = |height: i32| (within(height) + grain / 2) / grain * grain;
         let rounded = |height: i32| if grain == 1 { within(height) } else { rounded(height) };
-        (self.from, self.to) = (rounded(self.top), rounded(self.bottom));
-        let (start, end) = self.heights(y);
-        self.reach = self.slope.reach(start, end);
-        self.extent = self.reach.extent();
-        self.pixels = touched(self.extent, rect.x0, rect.x1);
+        let (from, to) = (rounded(self.top), rounded(self.bottom));
+        let (start, end) = heights(y, from, to);
+        let reach = self.slope.reach(start, end);
+        let extent = reach.extent();
+        let pixels = touched(extent, rect.x0, rect.x1);
+        AreaEdge { slope: self.slope, winding: self.winding, from, to, reach, extent, pixels }
     }
+}
 
+/// Heights in 1/256 pixel from the top of row `y`, in pixels.
+#[inline(always)]
+fn heights(y: i32, from: i32, to: i32) -> (f64, f64) {
+    let height = |within: i32| f64::from(y) + f64::from(within) * (1.0 / 256.0);
+    (height(from), height(to))
+}
+
+impl AreaEdge {
     /// The heights in pixels between which it runs in row `y`.
     #[inline(always)]
     pub(super) fn heights(&self, y: i32) -> (f64, f64) {
-        let height = |within: i32| f64::from(y) + f64::from(within) * (1.0 / 256.0);
-        (height(self.from), height(self.to))
+        heights(y, self.from, self.to)
     }
 
     /// From left to right at `self.from`, those that meet there as they go on; the same for two
@@ -92,6 +91,16 @@ impl AreaEdge {
         let (a, b) = (ends(self), ends(other));
         a.0 <= b.0 && a.1 <= b.1
     }
+}
+
+/// The edges of a row.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Entered {
+    /// From left to right.
+    met: Vec<AreaEdge>,
+    unsorted: Vec<AreaEdge>,
+    /// The leftmost x and the place of each.
+    order: Vec<(f64, u32)>,
 }
 
 /// At which heights inside a row the winding number right of the edges so far differs from that at
@@ -170,56 +179,86 @@ impl Clipped<'_> {
         scratch: &mut PolygonScratch,
         sink: &mut impl AreaSink,
     ) {
-        let PolygonScratch { area_rows: rows, area, crossings, strips, .. } = scratch;
         let rect = self.rect;
-        area.start(rect.x0, rect.x1);
-        rows.start(self.polygon, rect);
+        scratch.area.start(rect.x0, rect.x1);
+        // Rows that are wholly inside are handed on together.
+        let mut inside_from = None;
         let mut y = rect.y0;
         while y < rect.y1 {
-            rows.advance(y);
-            let calm = rows.calm_until(y, rect.y1);
-            if calm > y {
-                if self.polygon.is_inside(rows.left) {
-                    sink.block(IntRect { y0: y, y1: calm, ..rect });
+            // The bands of the index begin at multiples of their height.
+            let end = ((y | (ROWS as i32 - 1)) + 1).min(rect.y1);
+            scratch.gathered.start(self.polygon, IntRect { y0: y, y1: end, ..rect });
+            let mut left = 0;
+            for row in 0..(end - y) as usize {
+                scratch.steps.clear();
+                left += scratch.gathered.left_side(row, &mut scratch.steps);
+                let next = left + scratch.steps.iter().map(|s| s.1).sum::<i32>();
+                let y = y + row as i32;
+                let calm = scratch.gathered.rows[row].is_empty() && scratch.steps.is_empty();
+                if calm && self.polygon.is_inside(left) {
+                    inside_from.get_or_insert(y);
+                } else if let Some(from) = inside_from.take() {
+                    sink.block(IntRect { y0: from, y1: y, ..rect });
                 }
-                y = calm;
-                continue;
+                if !calm {
+                    self.row::<S, PLAIN>(simd, y, left, row, scratch, sink);
+                }
+                left = next;
             }
-            self.enter_row(y, rows);
-            self.row::<S, PLAIN>(simd, y, rows, (crossings, strips, area), sink);
-            area.finish(simd, y, sink);
-            y += 1;
+            y = end;
+        }
+        if let Some(from) = inside_from {
+            sink.block(IntRect { y0: from, ..rect });
         }
     }
 
-    /// Finds where the edges lie in row `y`, and sorts them from left to right.
+    /// The edges of row `y`, from left to right.
     #[inline(always)]
-    fn enter_row(&self, y: i32, rows: &mut Rows<AreaEdge>) {
-        let grain = (rows.active.len() / CROWD).max(1).next_power_of_two().min(256) as i32;
-        for e in &mut rows.active {
-            e.enter(y, grain, self.rect);
+    fn enter_row(&self, y: i32, row: usize, gathered: &Gathered, entered: &mut Entered) {
+        let places = &gathered.rows[row];
+        let grain = (places.len() / CROWD).max(1).next_power_of_two().min(256) as i32;
+        let Entered { met, unsorted, order } = entered;
+        met.clear();
+        let (mut sorted, mut before) = (true, f64::NEG_INFINITY);
+        for &i in places {
+            let edge = gathered.edges[i as usize].enter(y, grain, self.rect);
+            sorted &= before <= edge.extent[0];
+            before = edge.extent[0];
+            met.push(edge);
         }
-        sort(&mut rows.active, |a, b| a.extent[0].total_cmp(&b.extent[0]));
+        if sorted {
+            return;
+        }
+        // The edges are large: only their places are moved about.
+        core::mem::swap(met, unsorted);
+        order.clear();
+        order.extend((0..).zip(&*unsorted).map(|(i, e)| (e.extent[0], i)));
+        sort(order, |a: &(f64, u32), b| a.0.total_cmp(&b.0));
+        met.clear();
+        met.extend(order.iter().map(|&(_, i)| unsorted[i as usize]));
     }
 
-    /// Adds one row of pixels to the sums, cluster by cluster.
+    /// Hands on row `y`, summed cluster by cluster; `left` is the winding number at the left side of
+    /// its top.
     #[inline(always)]
     fn row<S: Simd, const PLAIN: bool>(
         &self,
         simd: S,
         y: i32,
-        rows: &Rows<AreaEdge>,
-        (crossings, strips, area): (&mut Crossings, &mut Strips, &mut AreaRow),
+        left: i32,
+        row: usize,
+        scratch: &mut PolygonScratch,
         sink: &mut impl AreaSink,
     ) {
-        let mut winding = rows.left;
-        let steps = rows.steps();
+        let PolygonScratch { gathered, entered, steps, area, crossings, strips, .. } = scratch;
+        self.enter_row(y, row, gathered, entered);
+        let mut winding = left;
         area.begin(if steps.is_empty() && self.polygon.is_inside(winding) { 1.0 } else { 0.0 });
-        for &(height, change) in steps {
-            crossings.add(height - y * 256, change);
+        for &(height, change) in &*steps {
+            crossings.add(height, change);
         }
-        let mut edges = &rows.active[..];
-        let mut steps = steps;
+        let mut edges = &entered.met[..];
+        let mut steps = &steps[..];
         while !edges.is_empty() || !steps.is_empty() {
             let (cluster, others) = edges.split_at(cluster(edges, crossings));
             let after = winding + net(cluster);
@@ -254,6 +293,7 @@ impl Clipped<'_> {
             (edges, winding, steps) = (others, after, &[]);
         }
         crossings.clear();
+        area.finish(simd, y, sink);
     }
 
     /// The weight of the first edge and that of the others, if the cluster is a plain one.
@@ -321,7 +361,8 @@ fn net(edges: &[AreaEdge]) -> i32 {
 }
 
 /// Sorts what is nearly sorted.
-pub(super) fn sort<T>(values: &mut [T], order: impl Fn(&T, &T) -> Ordering) {
+#[inline(always)]
+pub(super) fn sort<T: Copy>(values: &mut [T], order: impl Fn(&T, &T) -> Ordering) {
     // Few, or hardly any out of place: insertion. Otherwise not.
     if values.len() > 32 {
         if !values.is_sorted_by(|a, b| order(a, b).is_le()) {
@@ -330,13 +371,13 @@ pub(super) fn sort<T>(values: &mut [T], order: impl Fn(&T, &T) -> Ordering) {
         return;
     }
     for i in 1..values.len() {
+        let value = values[i];
         let mut j = i;
-        while j > 0 && order(&values[j - 1], &values[i]).is_gt() {
+        while j > 0 && order(&values[j - 1], &value).is_gt() {
+            values[j] = values[j - 1];
             j -= 1;
         }
-        if j < i {
-            values[j..=i].rotate_right(1);
-        }
+        values[j] = value;
     }
 }
 
@@ -394,6 +435,49 @@ mod tests {
                 });
                 prop_assert_eq!(short, long);
             }
+        }
+
+        #[test]
+        fn a_clip_of_many_edges_changes_nothing(
+            points in prop::collection::vec((-600..200_000i32, -200..9000i32), 100..300),
+            reach in 1..20_000i32,
+            even_odd in any::<bool>(),
+            (width, height, dx, dy) in (20..90i32, 5..40i32, 0..5i32, 0..5i32),
+        ) {
+            // Short edges and long ones.
+            let mut builder = Polygon::builder();
+            let mut at = FixedPoint { x: 0, y: 0 };
+            for (i, p) in points.iter().enumerate() {
+                let near = |from: i32, to: i32| from + (to - from).clamp(-reach, reach);
+                at = if i % 50 == 0 {
+                    FixedPoint { x: p.0, y: p.1 }
+                } else {
+                    FixedPoint { x: near(at.x, p.0), y: near(at.y, p.1) }
+                };
+                builder.push(at);
+            }
+            builder.close();
+            let rule = if even_odd { FillRule::EvenOdd } else { FillRule::NonZero };
+            let Some(polygon) = builder.finish(rule) else { return Ok(()) };
+            let bounds = polygon.bounds();
+            let mut scratch = PolygonScratch::default();
+            let mut areas = |regions: &mut dyn Iterator<Item = IntRect>| {
+                let mut all = Areas::default();
+                for region in regions.filter(|r| !r.is_empty()) {
+                    polygon.rasterize_area(region, Level::new(), &mut scratch, &mut all);
+                }
+                all.0.retain(|p| p.2 > 0.0);
+                all.0.sort_by_key(|p| (p.1, p.0));
+                all
+            };
+            let whole = areas(&mut core::iter::once(bounds));
+            let mut tiles = Vec::new();
+            for y in (bounds.y0 - dy..bounds.y1).step_by(height as usize) {
+                for x in (bounds.x0 - dx..bounds.x1).step_by(width as usize) {
+                    tiles.push(IntRect::new(x, y, x + width, y + height).intersect(&bounds));
+                }
+            }
+            prop_assert_eq!(whole, areas(&mut tiles.into_iter()));
         }
     }
 }

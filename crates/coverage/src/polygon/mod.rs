@@ -1,6 +1,8 @@
-//! Polygons: contours as edges, sorted by height and boxed, so that a tile finds its own quickly.
+//! Polygons: contours as edges, listed by bands of rows, so that a tile finds its own quickly.
 
 mod area;
+mod bands;
+mod gather;
 mod rows;
 mod samples;
 mod strips;
@@ -11,13 +13,11 @@ use crate::edge::Edge;
 use crate::triangle::owning_pixels;
 use crate::{Cover, FixedPoint};
 use alloc::vec::Vec;
-use scumble_geometry::{FillRule, IntRect};
-
-/// Edges under one bounding box of the index. Smaller: fewer edges looked at per tile, more boxes.
-const CHUNK: usize = 64;
+use bands::Bands;
+use scumble_geometry::{DVec2, FillRule, IntRect};
 
 /// An edge that crosses rows, from the top (y0 < y1).
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct PolygonEdge {
     x0: i32,
     y0: i32,
@@ -46,14 +46,6 @@ impl PolygonEdge {
     }
 }
 
-/// The box of [`CHUNK`] edges that follow each other.
-#[derive(Debug, Clone, Copy)]
-struct Chunk {
-    left: i32,
-    top: i32,
-    bottom: i32,
-}
-
 /// A level edge from `left` to `right`.
 #[derive(Debug, Clone, Copy)]
 struct Level {
@@ -65,9 +57,8 @@ struct Level {
 /// Contours as edges, ready to be crossed by rows of samples.
 #[derive(Debug, Clone)]
 pub(crate) struct Polygon {
-    /// By rising y0.
-    edges: Vec<PolygonEdge>,
-    chunks: Vec<Chunk>,
+    bands: Bands,
+    edge_count: usize,
     /// The level edges, by rising y: no row of samples crosses one, but the winding number changes
     /// there.
     levels: Vec<Level>,
@@ -81,6 +72,9 @@ pub(crate) struct PolygonBuilder {
     contour: Vec<FixedPoint>,
     edges: Vec<PolygonEdge>,
     levels: Vec<Level>,
+    /// How many contours enclose anything, and the corners of the last one if it has three.
+    contours: usize,
+    corners: Option<[FixedPoint; 3]>,
 }
 
 impl PolygonBuilder {
@@ -90,10 +84,29 @@ impl PolygonBuilder {
         }
     }
 
+    /// Pushes all points of a contour, if all lie inside the guard band; else none.
+    pub(crate) fn push_snapped(&mut self, contour: &[DVec2]) -> bool {
+        self.contour.reserve(contour.len());
+        self.edges.reserve(contour.len());
+        for &p in contour {
+            let Some(p) = FixedPoint::snap(p) else {
+                self.contour.clear();
+                return false;
+            };
+            self.push(p);
+        }
+        true
+    }
+
     /// Ends the contour and joins its last point to its first.
     pub(crate) fn close(&mut self) {
+        if self.contour.len() > 1 && self.contour.first() == self.contour.last() {
+            self.contour.pop();
+        }
         // What goes to and fro on one line winds around nothing.
         if !is_flat(&self.contour) {
+            self.contours += 1;
+            self.corners = self.contour[..].try_into().ok();
             for (i, &p) in self.contour.iter().enumerate() {
                 let q = self.contour[if i + 1 < self.contour.len() { i + 1 } else { 0 }];
                 if p.y == q.y {
@@ -108,26 +121,26 @@ impl PolygonBuilder {
         self.contour.clear();
     }
 
+    /// The corners, if a triangle is all there is.
+    pub(crate) fn triangle(&self) -> Option<[FixedPoint; 3]> {
+        self.corners.filter(|_| self.contours == 1)
+    }
+
     pub(crate) fn finish(mut self, rule: FillRule) -> Option<Polygon> {
-        self.edges.sort_by_key(|e| (e.y0, e.x0));
-        self.levels.sort_by_key(|l| l.y);
+        if self.edges.is_empty() {
+            return None;
+        }
+        self.levels.sort_unstable_by_key(|l| l.y);
         let (mut x0, mut x1) = (i32::MAX, i32::MIN);
         let (mut y0, mut y1) = (i32::MAX, i32::MIN);
         for e in &self.edges {
             (x0, x1) = (x0.min(e.left()), x1.max(e.right()));
             (y0, y1) = (y0.min(e.y0), y1.max(e.y1));
         }
-        if self.edges.is_empty() {
-            return None;
-        }
-        let chunk = |edges: &[PolygonEdge]| Chunk {
-            left: edges.iter().map(PolygonEdge::left).min().unwrap_or(0),
-            top: edges[0].y0,
-            bottom: edges.iter().map(|e| e.y1).max().unwrap_or(0),
-        };
-        let chunks = self.edges.chunks(CHUNK).map(chunk).collect();
         let bounds = owning_pixels(x0, y0, x1, y1);
-        Some(Polygon { edges: self.edges, chunks, levels: self.levels, bounds, rule })
+        let edge_count = self.edges.len();
+        let bands = Bands::new(self.edges, bounds);
+        Some(Polygon { bands, edge_count, levels: self.levels, bounds, rule })
     }
 }
 
@@ -160,17 +173,6 @@ impl Polygon {
         }
     }
 
-    /// The edges that meet rows `top..bottom` (1/256 pixel) and do not lie wholly beyond `right`.
-    fn edges_in(&self, top: i32, bottom: i32, right: i32) -> impl Iterator<Item = &PolygonEdge> {
-        self.chunks
-            .iter()
-            .zip(self.edges.chunks(CHUNK))
-            .take_while(move |(c, _)| c.top < bottom)
-            .filter(move |(c, _)| c.bottom > top && c.left <= right)
-            .flat_map(|(_, edges)| edges)
-            .filter(move |e| e.y0 < bottom && e.y1 > top && e.left() <= right)
-    }
-
     /// `rect` lies within the bounds and is not empty.
     pub(crate) fn covers(&self, rect: IntRect) -> Cover {
         let (left, right) = (rect.x0 * 256, rect.x1 * 256 - 1);
@@ -180,23 +182,49 @@ impl Polygon {
         if levels.any(|l| l.left <= right && l.right > left) {
             return Cover::Partial;
         }
-        let mut winding = 0;
-        for e in self.edges_in(top, bottom, right) {
-            if e.right() > left && crosses(e, rect) {
-                return Cover::Partial;
+        let (mut winding, mut crossed) = (0, false);
+        self.bands.each_in(top, bottom, |e| {
+            if e.left() > right {
+                return true;
             }
+            let side = if e.right() <= left { Some(Side::Left) } else { side(e, rect) };
+            crossed = side.is_none();
             // No edge crosses the rectangle, so the winding number is that of its corner.
-            if e.y0 <= top && top < e.y1 && e.crossing(top) <= left {
+            if side == Some(Side::Left) && e.y0 <= top && top < e.y1 {
                 winding += e.winding;
             }
+            !crossed
+        });
+        if crossed {
+            return Cover::Partial;
         }
         if self.is_inside(winding) { Cover::Full } else { Cover::None }
     }
+
+    /// How many edges cross rows.
+    pub(crate) fn edge_count(&self) -> usize {
+        self.edge_count
+    }
 }
 
-/// Whether the edge passes between the sample positions of the rectangle.
-fn crosses(e: &PolygonEdge, rect: IntRect) -> bool {
+/// Where an edge lies, seen from the sample positions of a rectangle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Left,
+    Right,
+}
+
+/// On which side of the rectangle the edge lies, or rather its line; none if it passes between the
+/// sample positions.
+fn side(e: &PolygonEdge, rect: IntRect) -> Option<Side> {
     let (low, high) =
         Edge::new(FixedPoint { x: e.x0, y: e.y0 }, FixedPoint { x: e.x1, y: e.y1 }).extremes(rect);
-    low < 0 && high >= 0
+    // Downwards, so that what is not negative lies left of the edge.
+    if high < 0 {
+        Some(Side::Left)
+    } else if low >= 0 {
+        Some(Side::Right)
+    } else {
+        None
+    }
 }

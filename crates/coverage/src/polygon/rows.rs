@@ -1,8 +1,9 @@
-//! What both kinds of polygon coverage share: the edges of a clip, row of pixels by row of pixels.
+//! The edges of a clip, row of pixels by row of pixels, for sampled coverage.
 
 use super::{Polygon, PolygonEdge};
 use crate::area::AreaRow;
-use crate::polygon::area::{AreaEdge, Crossings};
+use crate::polygon::area::{Crossings, Entered};
+use crate::polygon::gather::Gathered;
 use crate::polygon::samples::RowWinding;
 use crate::polygon::strips::Strips;
 use alloc::vec::Vec;
@@ -11,32 +12,22 @@ use scumble_geometry::IntRect;
 /// Working memory of the polygon rasterizers.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct PolygonScratch {
-    pub(super) rows: Rows<PolygonEdge>,
+    pub(super) rows: Rows,
     pub(super) winding: RowWinding,
-    pub(super) area_rows: Rows<AreaEdge>,
+    pub(super) gathered: Gathered,
+    pub(super) entered: Entered,
+    pub(super) steps: Vec<(i32, i32)>,
     pub(super) area: AreaRow,
     pub(super) crossings: Crossings,
     pub(super) strips: Strips,
-}
-
-/// What a rasterizer keeps of an edge while it meets the current row.
-pub(super) trait ActiveEdge: From<PolygonEdge> {
-    /// The height at which the edge ends.
-    fn bottom(&self) -> i32;
-}
-
-impl ActiveEdge for PolygonEdge {
-    fn bottom(&self) -> i32 {
-        self.y1
-    }
 }
 
 /// The edges that matter to a clip, walked from the top.
 ///
 /// Those wholly left of the clip only tell the winding number at its left side: they become a step
 /// function of the height. Those right of it do not matter.
-#[derive(Debug, Clone)]
-pub(super) struct Rows<E> {
+#[derive(Debug, Clone, Default)]
+pub(super) struct Rows {
     /// Height and change of the winding number at the clip's left side, by rising height.
     steps: Vec<(i32, i32)>,
     /// How many of them lie above the current row.
@@ -49,24 +40,10 @@ pub(super) struct Rows<E> {
     edges: Vec<PolygonEdge>,
     taken: usize,
     /// Those that meet the current row.
-    pub(super) active: Vec<E>,
+    pub(super) active: Vec<PolygonEdge>,
 }
 
-impl<E> Default for Rows<E> {
-    fn default() -> Self {
-        Self {
-            steps: Vec::new(),
-            passed: 0,
-            passing: 0,
-            left: 0,
-            edges: Vec::new(),
-            taken: 0,
-            active: Vec::new(),
-        }
-    }
-}
-
-impl<E: ActiveEdge> Rows<E> {
+impl Rows {
     /// Collects the edges for `clip`, which is not empty.
     pub(super) fn start(&mut self, polygon: &Polygon, clip: IntRect) {
         let (top, bottom) = (clip.y0 * 256, clip.y1 * 256);
@@ -79,14 +56,16 @@ impl<E: ActiveEdge> Rows<E> {
         self.steps.clear();
         self.edges.clear();
         self.active.clear();
-        for e in polygon.edges_in(top, bottom, clip.x1 * 256 - 1) {
+        polygon.bands.each_in(top, bottom, |e| {
             if e.right() <= clip.x0 * 256 {
                 self.steps.push((e.y0, e.winding));
                 self.steps.push((e.y1, -e.winding));
-            } else {
+            } else if e.left() < clip.x1 * 256 {
                 self.edges.push(*e);
             }
-        }
+            true
+        });
+        self.edges.sort_unstable_by_key(|e| e.y0);
         self.steps.sort_unstable();
         merge(&mut self.steps);
     }
@@ -94,10 +73,10 @@ impl<E: ActiveEdge> Rows<E> {
     /// Moves on to row `y`; rows must rise.
     pub(super) fn advance(&mut self, y: i32) {
         let (top, bottom) = (y * 256, y * 256 + 256);
-        self.active.retain(|e| e.bottom() > top);
+        self.active.retain(|e| e.y1 > top);
         while let Some(e) = self.edges.get(self.taken).filter(|e| e.y0 < bottom) {
             if e.y1 > top {
-                self.active.push(E::from(*e));
+                self.active.push(*e);
             }
             self.taken += 1;
         }

@@ -82,8 +82,11 @@ impl Polygon {
                 let mut mask = 0;
                 for (s, o) in pattern.offsets().iter().enumerate() {
                     let (sx, sy) = (x * 256 + i32::from(o[0]), y * 256 + i32::from(o[1]));
-                    let left = |e: &&PolygonEdge| e.y0 <= sy && sy < e.y1 && e.crossing(sy) <= sx;
-                    let winding = self.edges.iter().filter(left).map(|e| e.winding).sum();
+                    let mut winding = 0;
+                    self.bands.each_in(sy, sy + 1, |e| {
+                        winding += if e.crossing(sy) <= sx { e.winding } else { 0 };
+                        true
+                    });
                     mask |= u64::from(self.is_inside(winding)) << s;
                 }
                 emit(sink, pattern, (x, y), SampleMask(mask));
@@ -134,7 +137,7 @@ impl Strip<'_> {
     }
 
     /// The winding number of each sample at the left side of the clip.
-    fn start_row(&self, y: i32, rows: &Rows<PolygonEdge>, winding: &mut [i32]) {
+    fn start_row(&self, y: i32, rows: &Rows, winding: &mut [i32]) {
         winding.fill(rows.left);
         for &(height, change) in rows.steps() {
             for (w, o) in winding.iter_mut().zip(&self.pattern.lanes()[1]) {

@@ -47,7 +47,8 @@ struct Live {
 
 impl Strips {
     /// Adds a cluster of row `y`. Left of it is the winding number `left` at the top of the row,
-    /// which changes by the `steps` (height in 1/256 pixel, change) on the way down.
+    /// which changes by the `steps` (height in 1/256 pixel from the top of the row, change) on the way
+    /// down.
     #[inline(always)]
     pub(super) fn add<S: Simd>(
         &mut self,
@@ -61,15 +62,16 @@ impl Strips {
         self.start(y, cluster);
         let mut budget = CROSSING_WORK / (cluster.len() + 1);
         let at_left = !steps.is_empty();
+        let height = |within: i32| row_top + f64::from(within) / 256.0;
         let mut steps = steps.iter().peekable();
         let mut winding = left;
         let mut top = row_top;
         while top < row_bottom {
-            while let Some(step) = steps.next_if(|s| f64::from(s.0) / 256.0 <= top) {
+            while let Some(step) = steps.next_if(|s| height(s.0) <= top) {
                 winding += step.1;
             }
             self.retire_and_admit(simd, top, area);
-            let step = steps.peek().map_or(row_bottom, |s| f64::from(s.0) / 256.0);
+            let step = steps.peek().map_or(row_bottom, |s| height(s.0));
             let mut bottom = self.next_event(step.min(row_bottom));
             self.order(top, bottom);
             if budget > 0
@@ -123,12 +125,18 @@ impl Strips {
     /// Drops the edges that end at `top` and takes in those that begin there.
     #[inline(always)]
     fn retire_and_admit<S: Simd>(&mut self, simd: S, top: f64, area: &mut AreaRow) {
-        self.live.retain(|e| {
-            if e.end <= top {
-                e.flush(simd, e.end, area);
+        // Not by a closure, which would not be compiled for the instruction set.
+        let mut kept = 0;
+        for i in 0..self.live.len() {
+            let edge = self.live[i];
+            if edge.end <= top {
+                edge.flush(simd, edge.end, area);
+            } else {
+                self.live[kept] = edge;
+                kept += 1;
             }
-            e.end > top
-        });
+        }
+        self.live.truncate(kept);
         while let Some(edge) = self.waiting.pop_if(|e| e.start <= top) {
             self.live.push(edge);
         }
@@ -206,7 +214,7 @@ impl Live {
 
     /// What lies right of the edge down to `y`, less what does so down to where the weight began. They
     /// differ by the whole height or not at all, save in the pixels that the edge touches in between.
-    #[inline]
+    #[inline(always)]
     fn flush<S: Simd>(&self, simd: S, y: f64, area: &mut AreaRow) {
         if self.weight == 0 || self.since >= y {
             return;

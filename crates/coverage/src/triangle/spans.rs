@@ -128,7 +128,12 @@ fn walk<S: Simd, const N: usize>(
                 }
             }
         } else {
-            Stretches::<N>::new(simd, ends, width).emit(region.x0, y, count, &mut out);
+            let stretches = Stretches::<N>::new(simd, ends, width);
+            if region.x1 - region.x0 <= 8 {
+                stretches.emit_narrow(region.x0, y, count, &mut out);
+            } else {
+                stretches.emit(region.x0, y, count, &mut out);
+            }
         }
         y += 8;
     }
@@ -200,6 +205,38 @@ impl<const N: usize> Stretches<N> {
             let (from, to) = if full { (from, to) } else { (last, last) };
             self.partial(i, first..from, [left, y], out);
             self.partial(i, to..last, [left, y], out);
+        }
+    }
+
+    /// [`Self::emit`] for at most eight columns: all pixels are bits of one word, and those that are
+    /// covered in part are found without a loop for each row, whose length nothing could guess.
+    #[inline(always)]
+    fn emit_narrow(&self, left: i32, top: i32, count: usize, out: &mut Runs<'_, impl Sink>) {
+        let mut owned = [0u64; N];
+        for i in 0..count {
+            for (s, owned) in owned.iter_mut().enumerate() {
+                let stretch = (1u64 << self.lengths[s].get(i)) - 1;
+                *owned |= (stretch << self.starts[s].get(i)) << (8 * i);
+            }
+        }
+        let all = owned.iter().fold(u64::MAX, |all, owned| all & owned);
+        let any = owned.iter().fold(0, |any, owned| any | owned);
+        for (row, y) in all.to_le_bytes().into_iter().zip(top..) {
+            if row != 0 {
+                let (from, to) = (row.trailing_zeros(), 8 - row.leading_zeros());
+                out.run(y, left + from as i32, left + to as i32);
+            }
+        }
+        let mut partial = any & !all;
+        while partial != 0 {
+            let i = partial.trailing_zeros();
+            partial &= partial - 1;
+            let mut mask = 0;
+            for (s, owned) in owned.iter().enumerate() {
+                mask |= (owned >> i & 1) << s;
+            }
+            let (x, y) = ((i & 7) as i32, (i >> 3) as i32);
+            out.sink.pixel(left + x, top + y, SampleMask(mask));
         }
     }
 

@@ -11,6 +11,9 @@ const MAX_ARC_DEPTH: u32 = 10;
 /// memory on hostile input.
 const MAX_ROUND_POINTS: usize = 1 << 22;
 
+/// The least cosine of half the angle between two segments that are joined by one point.
+const WIDEST_BEND: f64 = 0.9375;
+
 /// Draws the outlines of chains.
 ///
 /// A chain's outline runs along its left side and back along its right side. At a join the outer
@@ -23,6 +26,10 @@ pub(super) struct Outliner<'a> {
     radius: f64,
     /// The least cosine between two normals whose chord is near enough to their arc.
     least_cosine: f64,
+    /// The least cosine between two normals whose tangents meet near enough to their arc.
+    least_bend: f64,
+    /// Whether the sides of the segment before end where those of the next one begin.
+    bent: bool,
     left: Vec<DVec2>,
     right: Vec<DVec2>,
     out: Path,
@@ -39,8 +46,11 @@ impl<'a> Outliner<'a> {
         // Sagitta of a chord: radius·(1 − cos(θ/2)); and cos θ = 2·cos²(θ/2) − 1.
         let half_cosine = (1.0 - tolerance / radius).clamp(0.0, 1.0);
         let least_cosine = 2.0 * half_cosine * half_cosine - 1.0;
+        // The tangents meet radius·(1/cos(θ/2) − 1) beyond the arc.
+        let half_cosine = (1.0 / (1.0 + tolerance / radius)).max(WIDEST_BEND);
+        let least_bend = 2.0 * half_cosine * half_cosine - 1.0;
         let (left, right) = (Vec::new(), Vec::new());
-        Self { style, radius, least_cosine, left, right, out: Path::new() }
+        Self { style, radius, least_cosine, least_bend, bent: false, left, right, out: Path::new() }
     }
 
     pub(super) fn finish(self) -> Path {
@@ -55,9 +65,13 @@ impl<'a> Outliner<'a> {
         self.right.clear();
         for pair in chain.segments.windows(2) {
             self.side(&pair[0]);
-            self.join(&pair[0], &pair[1]);
+            self.bent = self.bend(&pair[0], &pair[1]);
+            if !self.bent {
+                self.join(&pair[0], &pair[1]);
+            }
         }
         self.side(last);
+        self.bent = false;
         if chain.closed {
             self.join(last, first);
             let (left, right) = (self.left.split_off(0), self.right.split_off(0));
@@ -79,8 +93,31 @@ impl<'a> Outliner<'a> {
     /// The two sides of a segment.
     fn side(&mut self, segment: &Segment) {
         let normal = left_of(segment.direction) * self.radius;
-        self.left.extend([segment.from + normal, segment.to + normal]);
-        self.right.extend([segment.from - normal, segment.to - normal]);
+        if !self.bent {
+            self.left.push(segment.from + normal);
+            self.right.push(segment.from - normal);
+        }
+        self.left.push(segment.to + normal);
+        self.right.push(segment.to - normal);
+    }
+
+    /// Joins two segments of a curve by one point on either side, where their sides meet, if that
+    /// is as good as the arc. Tells whether it did.
+    fn bend(&mut self, before: &Segment, after: &Segment) -> bool {
+        let (n0, n1) = (left_of(before.direction), left_of(after.direction));
+        let cosine = n0.dot(n1);
+        // More than the sides lose on the inner side.
+        let lost = (n1 - n0).length() * self.radius;
+        let fits = cosine >= self.least_bend && before.length() >= lost && after.length() >= lost;
+        if !(after.smooth && fits) {
+            return false;
+        }
+        let tip = (n0 + n1) * (self.radius / (1.0 + cosine));
+        for (side, tip) in [(&mut self.left, tip), (&mut self.right, -tip)] {
+            side.pop();
+            side.push(after.from + tip);
+        }
+        true
     }
 
     /// What lies between the sides of two segments.

@@ -1,0 +1,125 @@
+//! What area coverage needs to know of a few rows of a clip: the edges that meet each of them, and
+//! the winding number at their left side.
+
+use super::area::Source;
+use super::{Polygon, PolygonEdge};
+use alloc::{vec, vec::Vec};
+use core::ops::Range;
+use scumble_geometry::IntRect;
+
+/// Rows that are looked at together: as many as the lowest band of the index has.
+pub(super) const ROWS: usize = 1 << super::bands::LEAST_SHIFT;
+
+/// Edges that matter to a clip of up to [`ROWS`] rows.
+///
+/// Those wholly left of the clip only tell the winding number at its left side: they become a step
+/// function of the height. Those right of it do not matter.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Gathered {
+    /// Edges within the clip's columns.
+    pub(super) edges: Vec<Source>,
+    /// Per row, the places of those that meet it.
+    pub(super) rows: [Vec<u32>; ROWS],
+    left: LeftSide,
+}
+
+/// How the winding number changes along the left side of a clip.
+#[derive(Debug, Clone)]
+pub(super) struct LeftSide {
+    /// By how much it changes at each height, in 1/256 pixel from the top; the last is beyond the
+    /// clip.
+    changes: Vec<i32>,
+    /// One bit for each height at which something was added.
+    marked: [u64; ROWS * 4 + 1],
+}
+
+impl Default for LeftSide {
+    fn default() -> Self {
+        Self { changes: vec![0; Self::HEIGHT as usize + 1], marked: [0; ROWS * 4 + 1] }
+    }
+}
+
+impl Gathered {
+    /// Collects the edges for `clip`, which has no more than [`ROWS`] rows.
+    #[inline(always)]
+    pub(super) fn start(&mut self, polygon: &Polygon, clip: IntRect) {
+        self.edges.clear();
+        self.rows.iter_mut().for_each(Vec::clear);
+        self.left.clear();
+        let (top, bottom) = (clip.y0 * 256, clip.y1 * 256);
+        let columns = (clip.x0 * 256, clip.x1 * 256 - 1);
+        let Self { edges, rows, left } = self;
+        polygon.bands.each_between((top, bottom), columns, left, |e| {
+            let (from, to) = (e.y0.max(top) - top, e.y1.min(bottom) - top);
+            let index = edges.len() as u32;
+            edges.push(Source::from(*e));
+            let range = (from >> 8) as usize..((to - 1) >> 8) as usize + 1;
+            rows[range].iter_mut().for_each(|row| row.push(index));
+        });
+    }
+
+    /// The change of the winding number at the top of a row, counted from the first; those strictly
+    /// inside it (height in 1/256 pixel from the row's top, change) are appended to `steps`.
+    #[inline(always)]
+    pub(super) fn left_side(&self, row: usize, steps: &mut Vec<(i32, i32)>) -> i32 {
+        let Range { start, end } = row * 4..row * 4 + 4;
+        for (word, &bits) in (start..end).zip(&self.left.marked[start..end]) {
+            let mut bits = if word == start { bits & !1 } else { bits };
+            while bits != 0 {
+                let height = word * 64 + bits.trailing_zeros() as usize;
+                bits &= bits - 1;
+                let change = self.left.changes[height];
+                if change != 0 {
+                    steps.push(((height - row * 256) as i32, change));
+                }
+            }
+        }
+        self.left.changes[row * 256]
+    }
+}
+
+impl LeftSide {
+    /// How far it reaches, in 1/256 pixel.
+    pub(super) const HEIGHT: i32 = ROWS as i32 * 256;
+
+    #[inline(always)]
+    pub(super) fn add(&mut self, height: i32, change: i32) {
+        let height = height as usize;
+        self.changes[height] += change;
+        self.marked[height / 64] |= 1 << (height % 64);
+    }
+
+    /// Adds an edge between the heights `top` and `bottom`.
+    #[inline(always)]
+    pub(super) fn add_edge(&mut self, e: &PolygonEdge, top: i32, bottom: i32) {
+        self.add(e.y0.max(top) - top, e.winding);
+        self.add(e.y1.min(bottom) - top, -e.winding);
+    }
+
+    /// Names the heights of all changes but the one at the very end, and forgets those that came to
+    /// nothing.
+    pub(super) fn each(&mut self, mut name: impl FnMut(i32, i32)) {
+        for (word, bits) in self.marked.iter_mut().enumerate().take(ROWS * 4) {
+            let mut left = *bits;
+            while left != 0 {
+                let height = word * 64 + left.trailing_zeros() as usize;
+                let change = self.changes[height];
+                if change == 0 {
+                    *bits &= !(1 << (height % 64));
+                } else {
+                    name(height as i32, change);
+                }
+                left &= left - 1;
+            }
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        for (word, bits) in self.marked.iter_mut().enumerate() {
+            while *bits != 0 {
+                self.changes[word * 64 + bits.trailing_zeros() as usize] = 0;
+                *bits &= *bits - 1;
+            }
+        }
+    }
+}
