@@ -106,7 +106,7 @@ fn figures() -> String {
     out.trim_end().to_owned()
 }
 
-const TEMPLATE: &str = include_str!("page.md");
+const TEMPLATE: &str = include_str!("page.in");
 
 #[cfg(test)]
 mod tests {
