@@ -48,9 +48,10 @@ pub(crate) const FIGURES: [Figure; 6] = [
         name: "checker",
         title: "A checkerboard in perspective",
         order: IN_ORDER,
-        look: "Look at the upper third. Without a filter the squares break up into false patterns; \
-               trilinear is grey from half way up, because it takes the longer side of the footprint \
-               for both; the two ellipses keep the rows apart almost to the horizon.",
+        look: "Look at the upper third. Without a filter the squares break up into false \
+               patterns; trilinear turns grey first, because it takes the longer side of the \
+               footprint for both; the ellipses keep the rows apart farther out, until those, \
+               too, are finer than pixels.",
         scene: checker,
         samplers: FOUR,
     },
@@ -58,9 +59,10 @@ pub(crate) const FIGURES: [Figure; 6] = [
         name: "rings",
         title: "High frequencies",
         order: IN_ORDER,
-        look: "Rings that get finer outwards, as fine as texels can be, three times down and tilted. \
-               Every ring that is not about the middle is false. Nearest is full of them, trilinear \
-               blurs most of the true ones away, `classic` leaves faint ones at the sides.",
+        look: "Rings that get finer outwards, as fine as texels can be, several times down \
+               and tilted. Only those about the middle are true. Nearest is full of false \
+               ones; trilinear and `classic` keep faint ones beside the middle and below it; \
+               `default` fades out with the least of them.",
         scene: rings,
         samplers: FOUR,
     },
@@ -88,8 +90,9 @@ pub(crate) const FIGURES: [Figure; 6] = [
         name: "clamp",
         title: "The bound on the axis ratio",
         order: "From left to right: `default` with the axis ratio bounded to 2, 8, 32 (its own), and 1024.",
-        look: "Lower bounds widen the ellipse across, so the far part blurs sideways, and never alias. At \
-               32 the difference from no bound is a row or two at the horizon.",
+        look: "Lower bounds widen the ellipse across, so the far part turns grey sooner, and \
+               never alias. Between 32 and 1024 there is hardly a difference to see, even \
+               here.",
         scene: grazing,
         samplers: [ratio(2.0), ratio(8.0), ratio(32.0), ratio(1024.0)],
     },
@@ -99,9 +102,10 @@ pub(crate) const FIGURES: [Figure; 6] = [
         order: "From left to right: the Gaussian cut at the radius of one (`classic` with the Gaussian \
                 kernel and no filter of its own for magnification), `classic`, `default`, and `default` \
                 with Catmull-Rom magnification.",
-        look: "Where the ellipse is no larger than a texel, the cut makes terraces: each texel is a flat \
-               spot with seams where its neighbours come in. A kernel that reaches its ends at zero, or \
-               a Gaussian wide enough to do so, has none.",
+        look: "Look along the mast and the edge of the hull, enlarged. Where the ellipse is \
+               no larger than a texel, texels come into it and leave it while they still have \
+               weight: the mast is dotted and the edge ragged. A kernel that ends at zero, or \
+               a Gaussian wide enough to do so nearly, shows none of it.",
         scene: boat,
         samplers: [
             CUT,
