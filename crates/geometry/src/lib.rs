@@ -96,6 +96,6 @@ pub use ramp::Ramp;
 pub use rect::{IntRect, Rect};
 #[cfg(feature = "paths")]
 pub use stroke::{Cap, Join, StrokeStyle};
-pub use tiles::{TileBins, TileGrid};
+pub use tiles::{BandStarts, TileBins, TileGrid};
 pub use triangle::{EdgeFunction, Triangle};
 pub use triangulate::{triangulate, triangulate_with};

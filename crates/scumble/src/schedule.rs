@@ -63,6 +63,22 @@ impl Pool {
         }
     }
 
+    /// What becomes of each item, in their order.
+    pub(crate) fn map<T: Send, U: Send>(
+        &self,
+        items: Vec<T>,
+        f: impl Fn(T) -> U + Sync + Send,
+    ) -> Vec<U> {
+        match self {
+            Self::Serial => items.into_iter().map(f).collect(),
+            #[cfg(feature = "parallel")]
+            Self::Parallel(pool) => {
+                use rayon::iter::{IntoParallelIterator, ParallelIterator};
+                pool.install(|| items.into_par_iter().map(f).collect())
+            }
+        }
+    }
+
     fn for_each<T: Send>(&self, items: Vec<T>, f: impl Fn(T) + Sync + Send) {
         match self {
             Self::Serial => items.into_iter().for_each(f),
@@ -90,25 +106,30 @@ pub(crate) fn buffered_rows(grid: &TileGrid, threads: usize) -> usize {
 pub(crate) fn run<S: Sink>(
     job: &Job<'_>,
     grid: TileGrid,
-    bins: TileBins,
+    mut bins: TileBins,
     pool: &Pool,
     sink: &mut S,
     control: &Control<'_>,
 ) -> Result<(), RenderError<S::Error>> {
     let step = bands_per_group(&grid, pool.threads());
-    let mut groups =
-        Groups { job, grid, bins, pool, control, lists: Vec::new(), idle: Mutex::default() };
+    let groups = Groups { job, grid, pool, control, idle: Mutex::default() };
     let (mut ready, mut next) = (Vec::new(), Vec::new());
+    let (mut lists, mut next_lists) = (Vec::new(), Vec::new());
     let mut ready_rows = 0..0;
     // One round more than there are groups: the last only hands over.
+    let band = |group: usize| (group * step).min(grid.bands());
+    fill(&mut bins, grid, band(0)..band(1), &mut lists);
     for group in 0..=grid.bands().div_ceil(step) {
-        let band = |group: usize| (group * step).min(grid.bands());
         let bands = band(group)..band(group + 1);
         let rows = groups.rows(&bands);
         let (taken, ()) = pool.join(
-            || if ready_rows.is_empty() { Ok(()) } else { sink.rows(ready_rows.start, &ready) },
-            || groups.render(bands, &mut next),
+            || {
+                fill(&mut bins, grid, band(group + 1)..band(group + 2), &mut next_lists);
+                if ready_rows.is_empty() { Ok(()) } else { sink.rows(ready_rows.start, &ready) }
+            },
+            || groups.render(bands, &lists, &mut next),
         );
+        std::mem::swap(&mut lists, &mut next_lists);
         taken.map_err(RenderError::Sink)?;
         if control.is_cancelled() {
             return Err(RenderError::Cancelled);
@@ -122,14 +143,19 @@ pub(crate) fn run<S: Sink>(
     Ok(())
 }
 
+/// For each tile of some bands, what touches it.
+fn fill(bins: &mut TileBins, grid: TileGrid, bands: Range<usize>, lists: &mut Vec<Vec<u32>>) {
+    lists.resize_with(bands.len() * grid.columns(), Vec::new);
+    for (band, lists) in bands.zip(lists.chunks_mut(grid.columns())) {
+        bins.fill(band, lists);
+    }
+}
+
 struct Groups<'a> {
     job: &'a Job<'a>,
     grid: TileGrid,
-    bins: TileBins,
     pool: &'a Pool,
     control: &'a Control<'a>,
-    /// For each tile of the group, what touches it.
-    lists: Vec<Vec<u32>>,
     /// Workspaces that no thread is using.
     idle: Mutex<Vec<Workspace>>,
 }
@@ -148,15 +174,13 @@ impl Groups<'_> {
         end(bands.start)..end(bands.end)
     }
 
-    fn render(&mut self, bands: Range<usize>, buffer: &mut Vec<[u8; 4]>) {
+    fn render(&self, bands: Range<usize>, lists: &[Vec<u32>], buffer: &mut Vec<[u8; 4]>) {
         let (columns, grid) = (self.grid.columns(), self.grid);
         let width = grid.area().width() as usize;
         buffer.resize(self.rows(&bands).len() * width, [0; 4]);
-        self.lists.resize_with(bands.len() * columns, Vec::new);
-        let mut tasks = Vec::with_capacity(self.lists.len());
+        let mut tasks = Vec::with_capacity(lists.len());
         let strips = buffer.chunks_mut(width * grid.side() as usize);
-        for ((band, strip), lists) in bands.zip(strips).zip(self.lists.chunks_mut(columns)) {
-            self.bins.fill(band, lists);
+        for ((band, strip), lists) in bands.zip(strips).zip(lists.chunks(columns)) {
             let first = tasks.len();
             tasks.extend(lists.iter().enumerate().map(|(column, list)| TileTask {
                 rect: grid.tile(column, band),

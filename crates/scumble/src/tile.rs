@@ -51,11 +51,9 @@ impl Job<'_> {
         list: &[u32],
         rows: &mut [&mut [[u8; 4]]],
     ) {
-        let here = |&i: &u32| {
-            let i = i as usize;
-            Local { draw: &self.plan.draws[i], bounds: self.plan.bounds[i].intersect(&rect) }
-        };
-        let locals: Vec<Local> = list.iter().map(here).collect();
+        let draws = self.plan.draws(list);
+        let here = |(draw, bounds): (_, IntRect)| Local { draw, bounds: bounds.intersect(&rect) };
+        let locals: Vec<Local> = draws.map(here).collect();
         let effect = effect(&locals, rect);
         let visible = effect != Effect::Blends;
         let mut all = work.lists.pop().unwrap_or_default();
@@ -93,8 +91,8 @@ impl Job<'_> {
                     continue;
                 }
                 Effect::Ramps => {
-                    let corner = (rect.x0, rect.y0 + y as i32);
-                    seen.shade_pixels(y, colors, &RowColors { planes: &planes, corner });
+                    let start = centre(rect.x0, rect.y0 + y as i32);
+                    seen.shade_pixels(y, colors, &RowColors { planes: &planes, start });
                 }
                 Effect::Hides => seen.shade_row(y, colors, |key, x, out| {
                     let place = centre(rect.x0 + x as i32, rect.y0 + y as i32);
