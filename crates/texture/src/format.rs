@@ -183,8 +183,17 @@ impl<P: Channels, A: Alpha> Texels<'_, P, A> {
         Self { light: true, ..self }
     }
 
-    pub(crate) fn size(&self) -> [usize; 2] {
+    /// Columns and rows.
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
         [self.view.width(), self.view.height()]
+    }
+
+    /// Whether every pixel is opaque.
+    #[must_use]
+    pub fn is_opaque(&self) -> bool {
+        let value = |c: P::Channel| if self.halves { half(c.value()) } else { c.value() };
+        self.view.rows().all(|row| row.iter().all(|p| p.spread(value)[3] >= 1.0))
     }
 
     /// A pixel in a working space.
