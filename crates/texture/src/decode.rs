@@ -197,7 +197,7 @@ fn premultiplied<T: Cell>(color: [f32; 3], a: f32) -> T {
 
 /// The half float of these bits.
 #[inline(always)]
-fn half(bits: usize) -> f32 {
+pub(crate) fn half(bits: usize) -> f32 {
     let (sign, magnitude) = (bits & 0x8000, bits as u32 & 0x7fff);
     // As a float with the exponent still off by 112, which a product mends; infinities and NaNs are
     // those of the larger type.

@@ -1,5 +1,6 @@
 //! Images in the formats that others keep them in.
 
+use crate::decode::half;
 use core::marker::PhantomData;
 use scumble_pixel::ImageView;
 
@@ -371,8 +372,18 @@ impl<P: Channels, A: Alpha> Texels<'_, P, A> {
         Self { format: self.format.in_light(), ..self }
     }
 
-    pub(crate) fn size(&self) -> [usize; 2] {
+    /// Columns and rows.
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
         [self.view.width(), self.view.height()]
+    }
+
+    /// Whether every pixel is opaque.
+    #[must_use]
+    pub fn is_opaque(&self) -> bool {
+        let one = |c: P::Channel| if self.format.halves { half(c.code()) } else { c.value() };
+        let opaque = |p: &P| p.spread(|_| 0.0, one)[3] >= 1.0;
+        !P::ALPHA || self.view.rows().all(|row| row.iter().all(opaque))
     }
 }
 

@@ -134,6 +134,7 @@ mod probes;
 pub mod procedural;
 mod pyramid;
 mod radial;
+mod reach;
 pub mod reference;
 mod sampler;
 mod separable;

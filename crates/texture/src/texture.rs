@@ -252,6 +252,15 @@ impl Texture {
         );
     }
 
+    /// The colours of a run of footprints: `out[i]` is what [`Texture::sample`] gives for
+    /// `footprints[i]`, to the last bit. The shorter slice ends it.
+    pub fn sample_footprints(&self, footprints: &[Footprint], s: &Sampler, out: &mut [Premul]) {
+        let count = footprints.len().min(out.len());
+        // Batches are set up whole, so some are asked for that are not there.
+        let at = |i: usize| footprints.get(i).copied().unwrap_or(Footprint::point(0.0, 0.0));
+        self.dispatch(at, s, &mut out[..count]);
+    }
+
     /// Samples a run of footprints: by the fast paths, or by what is beside them.
     #[inline(always)]
     fn dispatch(&self, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mut [Premul]) {
