@@ -40,7 +40,7 @@ impl Sampler {
             // A NaN is magnified, too.
             let magnifies = self.magnify != Magnify::None && least[0].max(0.0) < MAGNIFIED;
             let finest = if magnifies { 0 } else { self.level_of(least).0 };
-            (finest, self.level_of(most) == (0, false))
+            (finest, most.iter().all(|s| s.is_finite()) && self.level_of(most) == (0, false))
         } else {
             (0, self.pixel != PixelFilter::Classic && most[0] <= 1.0)
         };
