@@ -22,6 +22,8 @@ cargo xtask COMMAND
   quality [--check] [--times]         judge the texture filters against brute force and write
                                       docs/quality.md, or compare it; say what they take
   bench [ARGS]                        cargo bench over the workspace
+  bench --peers [ARGS]                scumble warp beside OpenCV and ImageMagick, where they are
+                                      installed (--help lists the arguments)
   help                                this text
 ";
 

@@ -21,6 +21,7 @@ pub mod driver;
 pub mod exchange;
 pub mod map;
 mod math;
+pub mod peers;
 pub mod quality;
 mod scenes;
 mod svg;
