@@ -112,7 +112,7 @@ impl Clipped<'_> {
         sink: &mut impl AreaSink,
     ) {
         let PolygonScratch { gathered, left, sums, knots, .. } = scratch;
-        sums.add(y, (&gathered.edges, &gathered.rows[row]), left);
+        sums.add(simd, y, (&gathered.edges, &gathered.rows[row]), left);
         for level in self.polygon.levels_between(y * 256, y * 256 + 256) {
             sums.add_level(level.left >> 8, level.right >> 8);
         }

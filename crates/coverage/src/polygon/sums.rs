@@ -13,7 +13,7 @@
 use super::Polygon;
 use super::gather::Source;
 use super::steps::Steps;
-use crate::area::{CHUNK, eight_areas, splat};
+use crate::area::{CHUNK, Reach, eight_areas, eight_right, splat};
 use crate::fixed::{floor, low_bits};
 use alloc::vec::Vec;
 use fearless_simd::{Simd, f64x8, prelude::*};
@@ -68,7 +68,8 @@ impl RowSums {
         (self.x0, self.chunks) = (x0, chunks);
         // Only growth needs filling.
         let room = (self.out.len() / 8).max(chunks.next_multiple_of(8));
-        self.steps.resize(room * 8 + 1, 0.0);
+        // An edge is added to as many pixels beyond its end as fill eight.
+        self.steps.resize(room * 8 + 16, 0.0);
         self.heights.resize(room * 8, 0);
         self.out.resize(room * 8, 0.0);
         self.touched.resize(room / 8, 0);
@@ -78,7 +79,13 @@ impl RowSums {
 
     /// Adds the edges of row `y`; what lies left of all pixels, to the winding number there.
     #[inline(always)]
-    pub(super) fn add(&mut self, y: i32, (edges, places): (&[Source], &[u32]), left: &mut Steps) {
+    pub(super) fn add<S: Simd>(
+        &mut self,
+        simd: S,
+        y: i32,
+        (edges, places): (&[Source], &[u32]),
+        left: &mut Steps,
+    ) {
         self.met.clear();
         let right = self.x0 + self.chunks as i32 * CHUNK;
         for &place in places {
@@ -105,15 +112,33 @@ impl RowSums {
             self.heights[column] += height + cut;
             self.mark(column, end);
             let weight = f64::from(edge.winding);
-            let mut before = 0.0;
-            let mut x = f64::from(from_x);
-            for step in &mut self.steps[column..=end] {
-                let area = weight * reach.right(x);
-                *step += area - before;
-                before = area;
-                x += 1.0;
+            if column == end {
+                let area = weight * reach.right(f64::from(from_x));
+                self.steps[column] += area;
+                self.steps[column + 1] += weight * reach.height - area;
+            } else {
+                self.add_long(simd, (column, end), &reach, weight);
             }
-            self.steps[end + 1] += weight * reach.height - before;
+        }
+    }
+
+    /// Adds an edge that touches several pixels.
+    #[inline(always)]
+    fn add_long<S: Simd>(
+        &mut self,
+        simd: S,
+        (column, end): (usize, usize),
+        reach: &Reach,
+        weight: f64,
+    ) {
+        // The area of the pixel before, and of eight more. Beyond the edge all are the same.
+        let mut areas = [0.0; 9];
+        for at in (column..end + 2).step_by(8) {
+            areas[0] = areas[8];
+            eight_right(simd, self.pixel(at), reach, weight).store_slice(&mut areas[1..]);
+            let rises = f64x8::from_slice(simd, &areas[1..]) - f64x8::from_slice(simd, &areas[..8]);
+            let steps = &mut self.steps[at..at + 8];
+            (f64x8::from_slice(simd, steps) + rises).store_slice(steps);
         }
     }
 
@@ -261,6 +286,7 @@ impl RowSums {
         }
         self.knots[..self.chunks.div_ceil(64)].fill(0);
         self.untied.clear();
+        self.steps[self.chunks * 8..self.chunks * 8 + 16].fill(0.0);
         self.hand_on(stretch.clone(), out);
         if polygon.is_inside(base as i32) {
             out.full(self.pixel(stretch.end), self.pixel(self.chunks * 8));
