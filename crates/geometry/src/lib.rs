@@ -70,6 +70,7 @@ mod math;
 mod matrix2;
 #[cfg(feature = "paths")]
 mod path;
+mod plane;
 mod ramp;
 mod rect;
 #[cfg(feature = "paths")]
@@ -90,6 +91,7 @@ pub use line::{line_quad, line_quad_square};
 pub use matrix2::{Axes, Matrix2};
 #[cfg(feature = "paths")]
 pub use path::{Path, PathElement};
+pub use plane::Plane;
 pub use ramp::Ramp;
 pub use rect::{IntRect, Rect};
 #[cfg(feature = "paths")]
