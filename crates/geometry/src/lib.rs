@@ -72,6 +72,7 @@ mod matrix2;
 mod path;
 mod ramp;
 mod rect;
+mod rectify;
 #[cfg(feature = "paths")]
 mod stroke;
 mod tiles;
@@ -92,6 +93,7 @@ pub use matrix2::{Axes, Matrix2};
 pub use path::{Path, PathElement};
 pub use ramp::Ramp;
 pub use rect::{IntRect, Rect};
+pub use rectify::{Rectified, Winding};
 #[cfg(feature = "paths")]
 pub use stroke::{Cap, Join, StrokeStyle};
 pub use tiles::{TileBins, TileGrid};
