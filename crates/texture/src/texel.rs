@@ -5,8 +5,57 @@
 //! sixty-four to each code of eight bits: codes are exact, and so are the sums of up to 64 of them that
 //! the box filter divides. Rounding to a step is noise at −95 dB.
 
+use crate::level::Level;
+use alloc::vec::Vec;
+
 /// Premultiplied RGBA in the working space, in steps.
 pub(crate) type Texel = [i16; 4];
+
+/// A texel as it is stored: in steps, or in floats.
+pub(crate) trait Cell: Copy + Default + Send + Sync {
+    /// Whether it is rounded to a step, after which sums of constants are the constant again.
+    const ROUNDS: bool;
+    /// Its numbers, in the unit that they are stored in.
+    fn numbers(self) -> [f32; 4];
+    /// The texel nearest to such numbers.
+    fn of_numbers(numbers: [f32; 4]) -> Self;
+    /// The texel nearest to a colour.
+    fn of_color(color: [f32; 4]) -> Self;
+    /// The texel of a colour in parts of 255².
+    fn of_products(products: [f32; 4]) -> Self;
+    /// The memory of a level of such texels.
+    fn memory(level: &mut Level) -> &mut Vec<Self>;
+}
+
+impl Cell for Texel {
+    const ROUNDS: bool = true;
+
+    #[inline(always)]
+    fn numbers(self) -> [f32; 4] {
+        steps(self)
+    }
+
+    #[inline(always)]
+    fn of_numbers(numbers: [f32; 4]) -> Self {
+        numbers.map(round)
+    }
+
+    #[inline(always)]
+    fn of_color(color: [f32; 4]) -> Self {
+        of_color(color)
+    }
+
+    #[inline(always)]
+    fn of_products(products: [f32; 4]) -> Self {
+        // Off by less than a thousandth and a half, and no product lies within one and nine tenths of
+        // the middle between two steps: the nearest step is that of the exact product.
+        products.map(|v| round(v * (64.0 / 255.0)))
+    }
+
+    fn memory(level: &mut Level) -> &mut Vec<Self> {
+        &mut level.texels
+    }
+}
 
 /// 1.0, in steps.
 pub(crate) const ONE: f32 = 16_320.0;
@@ -29,13 +78,6 @@ pub(crate) fn round(v: f32) -> i16 {
     let v = if v > LEAST { v } else { LEAST };
     let v = if v < MOST { v } else { MOST };
     (v + ROUNDER).to_bits() as i16
-}
-
-/// A channel in steps brought to a whole number of them, as it will be stored: what a level is made of
-/// must be what is stored, or a constant that lies half way between two steps goes either way.
-#[inline(always)]
-pub(crate) fn whole(v: f32) -> f32 {
-    (v + ROUNDER) - ROUNDER
 }
 
 /// The colour in steps of a texel.
