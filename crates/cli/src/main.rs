@@ -8,6 +8,8 @@ mod error;
 mod input;
 mod interrupt;
 mod output;
+#[allow(dead_code, unused_imports)]
+mod picture;
 mod png_sink;
 mod progress;
 mod render;

@@ -1,7 +1,8 @@
 //! From an image's numbers to texels of the working space.
 
 use crate::format::{Alpha, Channel, Channels, TexelFormat};
-use crate::texel::Cell;
+use crate::pyramid::Lanes;
+use crate::texel::{Cell, ONE, of_color};
 use alloc::vec::Vec;
 use scumble_pixel::{WorkingSpace, srgb};
 
@@ -12,6 +13,12 @@ const LARGEST: f32 = 1e30;
 /// Pixels of an image from which on a table of 16-bit codes is worth its making.
 const WORTH_A_TABLE: usize = 1 << 17;
 
+/// Pixels that are looked at together, whether they are opaque.
+const BLOCK: usize = 64;
+
+/// Alpha of 1, in steps.
+const OPAQUE: u64 = ONE as u64;
+
 /// The curve from an image's numbers to those of a space; none if they are the same.
 type Curve = fn(f32) -> f32;
 
@@ -20,8 +27,16 @@ type Curve = fn(f32) -> f32;
 pub(crate) struct Decoder<P, A> {
     format: TexelFormat<P, A>,
     curve: Option<Curve>,
-    /// The colour of each code, if there are not too many.
-    table: Vec<f32>,
+    /// What each code stands for, if there are not too many.
+    codes: Option<Codes>,
+}
+
+/// The colours of all codes of a channel.
+#[derive(Debug, Clone)]
+struct Codes {
+    colors: Vec<f32>,
+    /// Of bytes, in steps.
+    steps: [u16; 256],
 }
 
 impl<P: Channels, A: Alpha> Decoder<P, A> {
@@ -32,27 +47,54 @@ impl<P: Channels, A: Alpha> Decoder<P, A> {
             (true, WorkingSpace::Srgb) => Some(srgb::encode),
             _ => None,
         };
-        let mut decoder = Self { format, curve, table: Vec::new() };
+        let mut decoder = Self { format, curve, codes: None };
         let codes = P::Channel::CODES;
         if !A::PREMULTIPLIED && (codes == 256 || (codes > 0 && pixels >= WORTH_A_TABLE)) {
             let color = |code| {
                 let value = decoder.value(P::Channel::of_code(code));
                 curve.map_or(value, |curve| curve(value))
             };
-            decoder.table = (0..codes).map(color).collect();
+            let colors: Vec<f32> = (0..codes).map(color).collect();
+            let mut steps = [0; 256];
+            for (step, color) in steps.iter_mut().zip(&colors) {
+                let [whole, ..] = of_color([*color; 4]);
+                *step = whole as u16;
+            }
+            decoder.codes = Some(Codes { colors, steps });
         }
         decoder
     }
 
     /// The texels of pixels.
     #[inline(always)]
-    pub(crate) fn row<T: Cell>(&self, pixels: &[P], out: &mut [T]) {
-        let bytes = P::Channel::CODES == 256;
-        if self.table.is_empty() {
+    pub(crate) fn row<T: Cell>(&self, lanes: impl Lanes, pixels: &[P], out: &mut [T]) {
+        let Some(codes) = &self.codes else {
             for (out, pixel) in out.iter_mut().zip(pixels) {
                 *out = self.texel(pixel.spread(|c| self.value(c), |c| self.value(c)));
             }
-        } else if bytes && self.curve.is_none() {
+            return;
+        };
+        if !T::ROUNDS || P::Channel::CODES != 256 {
+            return self.by_table(&codes.colors, pixels, out);
+        }
+        // Opaque bytes are the most there are: no product and no rounding.
+        if !P::ALPHA {
+            return self.opaque(lanes, codes, pixels, out);
+        }
+        for (out, pixels) in out.chunks_mut(BLOCK).zip(pixels.chunks(BLOCK)) {
+            let least = pixels.iter().map(|p| p.alpha().code()).fold(255, usize::min);
+            if least == 255 {
+                self.opaque(lanes, codes, pixels, out);
+            } else {
+                self.by_table(&codes.colors, pixels, out);
+            }
+        }
+    }
+
+    /// Straight pixels of which each code stands in a table.
+    #[inline(always)]
+    fn by_table<T: Cell>(&self, table: &[f32], pixels: &[P], out: &mut [T]) {
+        if P::Channel::CODES == 256 && self.curve.is_none() {
             // Products of codes are exact, and so are those of opaque pixels in steps.
             let code = |c: P::Channel| c.code() as f32;
             for (out, pixel) in out.iter_mut().zip(pixels) {
@@ -60,13 +102,36 @@ impl<P: Channels, A: Alpha> Decoder<P, A> {
                 let a = if P::ALPHA { a } else { 255.0 };
                 *out = T::of_products([r * a, g * a, b * a, 255.0 * a]);
             }
-        } else {
-            // A slice of a size that is known holds every code.
-            let table = &self.table[..P::Channel::CODES];
+            return;
+        }
+        // A slice of a size that is known holds every code.
+        let table = &table[..P::Channel::CODES];
+        for (out, pixel) in out.iter_mut().zip(pixels) {
+            let [r, g, b, a] = pixel.spread(|c| table[c.code()], |c| self.value(c));
+            *out = straight([r, g, b], unit(a));
+        }
+    }
+
+    /// Opaque bytes.
+    #[inline(always)]
+    fn opaque<T: Cell>(&self, lanes: impl Lanes, codes: &Codes, pixels: &[P], out: &mut [T]) {
+        if self.curve.is_some() {
+            let steps = &codes.steps;
             for (out, pixel) in out.iter_mut().zip(pixels) {
-                let [r, g, b, a] = pixel.spread(|c| table[c.code()], |c| self.value(c));
-                *out = straight([r, g, b], unit(a));
+                let [r, g, b] = pixel.color().map(|c| u64::from(steps[c.code() & 255]));
+                // In one piece: four stores of 16 bits would take as long again.
+                let texel = r | g << 16 | b << 32 | OPAQUE << 48;
+                *out = T::of_steps([0, 16, 32, 48].map(|k| (texel >> k) as i16));
             }
+            return;
+        }
+        let (mut done, bytes) = (0, P::Channel::bytes(P::flat(pixels)));
+        if pixels.len() == out.len() && size_of::<P>() == 3 {
+            done = T::of_rgb(lanes, bytes, out);
+        }
+        for (out, pixel) in out.iter_mut().zip(pixels).skip(done) {
+            let [r, g, b] = pixel.color().map(|c| (c.code() << 6) as i16);
+            *out = T::of_steps([r, g, b, OPAQUE as i16]);
         }
     }
 
@@ -132,7 +197,7 @@ fn premultiplied<T: Cell>(color: [f32; 3], a: f32) -> T {
 
 /// The half float of these bits.
 #[inline(always)]
-fn half(bits: usize) -> f32 {
+pub(crate) fn half(bits: usize) -> f32 {
     let (sign, magnitude) = (bits & 0x8000, bits as u32 & 0x7fff);
     // As a float with the exponent still off by 112, which a product mends; infinities and NaNs are
     // those of the larger type.

@@ -1,5 +1,6 @@
 //! Images in the formats that others keep them in.
 
+use crate::decode::half;
 use core::marker::PhantomData;
 use scumble_pixel::ImageView;
 
@@ -27,7 +28,7 @@ impl Alpha for PremultipliedAlpha {
 }
 
 /// A channel as it is stored: `u8` and `u16` are parts of 255 and 65535, `f32` is itself.
-pub trait Channel: sealed::Sealed + Copy + Sync {
+pub trait Channel: sealed::Sealed + Copy + Sync + Sized {
     #[doc(hidden)]
     const LIGHT: bool;
     /// How many different ones there are, if that is a number for a table, else 0.
@@ -41,6 +42,9 @@ pub trait Channel: sealed::Sealed + Copy + Sync {
     /// The one at a place.
     #[doc(hidden)]
     fn of_code(code: usize) -> Self;
+    /// Bytes as they are; of others none.
+    #[doc(hidden)]
+    fn bytes(channels: &[Self]) -> &[u8];
 }
 
 impl Channel for u8 {
@@ -59,6 +63,11 @@ impl Channel for u8 {
 
     fn of_code(code: usize) -> Self {
         code as u8
+    }
+
+    #[inline(always)]
+    fn bytes(channels: &[Self]) -> &[u8] {
+        channels
     }
 }
 
@@ -79,6 +88,10 @@ impl Channel for u16 {
     fn of_code(code: usize) -> Self {
         code as u16
     }
+
+    fn bytes(_: &[Self]) -> &[u8] {
+        &[]
+    }
 }
 
 impl Channel for f32 {
@@ -98,10 +111,14 @@ impl Channel for f32 {
     fn of_code(_: usize) -> Self {
         0.0
     }
+
+    fn bytes(_: &[Self]) -> &[u8] {
+        &[]
+    }
 }
 
 /// A pixel of one to four channels: grey; grey and alpha; red, green, blue; and with alpha.
-pub trait Channels: sealed::Sealed + Copy + Sync {
+pub trait Channels: sealed::Sealed + Copy + Sync + Sized {
     /// The type of each.
     type Channel: Channel;
     /// Whether the last of them is alpha.
@@ -113,6 +130,14 @@ pub trait Channels: sealed::Sealed + Copy + Sync {
         color: impl Fn(Self::Channel) -> f32,
         alpha: impl Fn(Self::Channel) -> f32,
     ) -> [f32; 4];
+    /// Red, green and blue.
+    #[doc(hidden)]
+    fn color(self) -> [Self::Channel; 3];
+    /// The last channel.
+    #[doc(hidden)]
+    fn alpha(self) -> Self::Channel;
+    #[doc(hidden)]
+    fn flat(pixels: &[Self]) -> &[Self::Channel];
 }
 
 impl<C: Channel> Channels for [C; 1] {
@@ -123,6 +148,21 @@ impl<C: Channel> Channels for [C; 1] {
     fn spread(self, color: impl Fn(C) -> f32, _: impl Fn(C) -> f32) -> [f32; 4] {
         let y = color(self[0]);
         [y, y, y, 1.0]
+    }
+
+    #[inline(always)]
+    fn color(self) -> [C; 3] {
+        [self[0]; 3]
+    }
+
+    #[inline(always)]
+    fn alpha(self) -> C {
+        self[0]
+    }
+
+    #[inline(always)]
+    fn flat(pixels: &[Self]) -> &[C] {
+        pixels.as_flattened()
     }
 }
 
@@ -135,6 +175,21 @@ impl<C: Channel> Channels for [C; 2] {
         let y = color(self[0]);
         [y, y, y, alpha(self[1])]
     }
+
+    #[inline(always)]
+    fn color(self) -> [C; 3] {
+        [self[0]; 3]
+    }
+
+    #[inline(always)]
+    fn alpha(self) -> C {
+        self[1]
+    }
+
+    #[inline(always)]
+    fn flat(pixels: &[Self]) -> &[C] {
+        pixels.as_flattened()
+    }
 }
 
 impl<C: Channel> Channels for [C; 3] {
@@ -146,6 +201,21 @@ impl<C: Channel> Channels for [C; 3] {
         let [r, g, b] = self.map(color);
         [r, g, b, 1.0]
     }
+
+    #[inline(always)]
+    fn color(self) -> [C; 3] {
+        [self[0], self[1], self[2]]
+    }
+
+    #[inline(always)]
+    fn alpha(self) -> C {
+        self[2]
+    }
+
+    #[inline(always)]
+    fn flat(pixels: &[Self]) -> &[C] {
+        pixels.as_flattened()
+    }
 }
 
 impl<C: Channel> Channels for [C; 4] {
@@ -156,6 +226,21 @@ impl<C: Channel> Channels for [C; 4] {
     fn spread(self, color: impl Fn(C) -> f32, alpha: impl Fn(C) -> f32) -> [f32; 4] {
         let [r, g, b, a] = self;
         [color(r), color(g), color(b), alpha(a)]
+    }
+
+    #[inline(always)]
+    fn color(self) -> [C; 3] {
+        [self[0], self[1], self[2]]
+    }
+
+    #[inline(always)]
+    fn alpha(self) -> C {
+        self[3]
+    }
+
+    #[inline(always)]
+    fn flat(pixels: &[Self]) -> &[C] {
+        pixels.as_flattened()
     }
 }
 
@@ -296,13 +381,8 @@ impl<P: Channels, A: Alpha> Texels<'_, P, A> {
     /// Whether every pixel is opaque.
     #[must_use]
     pub fn is_opaque(&self) -> bool {
-        let halves = self.format.halves;
-        // The bits of positive half floats are in the order of their values.
-        let one = |c: P::Channel| {
-            if halves { (0x3c00..=0x7c00).contains(&c.code()) } else { c.value() >= 1.0 }
-        };
-        let alpha = |c: P::Channel| f32::from(u8::from(one(c)));
-        let opaque = |p: &P| p.spread(|_| 0.0, alpha)[3] > 0.0;
+        let one = |c: P::Channel| if self.format.halves { half(c.code()) } else { c.value() };
+        let opaque = |p: &P| p.spread(|_| 0.0, one)[3] >= 1.0;
         !P::ALPHA || self.view.rows().all(|row| row.iter().all(opaque))
     }
 }

@@ -12,3 +12,4 @@ pub(crate) mod plan;
 mod rung;
 
 pub(crate) use build::{Making, image};
+pub(crate) use filter::{Lanes, halve};

@@ -42,8 +42,9 @@ impl Sampler {
         let (first, last) = if by_ellipse {
             // A NaN is magnified, too.
             let magnifies = self.magnify != Magnify::None && least[0].max(0.0) < MAGNIFIED;
-            let (last, blends) = self.level_of(most);
             let first = if magnifies { 0 } else { self.level_of(least).0 };
+            let bounded = most.iter().all(|s| s.is_finite());
+            let (last, blends) = if bounded { self.level_of(most) } else { (FARTHEST, false) };
             (first, last + usize::from(blends))
         } else if self.pixel != PixelFilter::Classic && most[0] <= 1.0 {
             (0, 0)

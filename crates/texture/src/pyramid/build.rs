@@ -20,6 +20,7 @@ pub(crate) struct Making<T> {
     plan: Plan,
     cascade: Cascade<T>,
     levels: Vec<Level>,
+    simd: Simd,
 }
 
 impl<T: Cell> Making<T> {
@@ -32,7 +33,7 @@ impl<T: Cell> Making<T> {
         let plan = Plan::new(size, options);
         let levels = plan.empty::<T>(options, old)?;
         let cascade = Cascade::new(&plan, 0, &plan.courses())?;
-        Ok(Self { plan, cascade, levels })
+        Ok(Self { plan, cascade, levels, simd: Simd::best() })
     }
 
     /// The row that must come next; none if all have come.
@@ -42,22 +43,12 @@ impl<T: Cell> Making<T> {
 
     /// Takes the row that must come next.
     pub(crate) fn push<P: Channels, A: Alpha>(&mut self, decoder: &Decoder<P, A>, row: &[P]) {
-        let Self { plan, cascade, levels } = self;
+        let Self { plan, cascade, levels, simd } = self;
         let mut kept = Kept { first: plan.first, levels };
-        match Simd::best().0 {
-            None => cascade.push(Scalar, plan, &mut kept, |columns, out| {
-                decoder.row(row.get(columns.start..columns.end).unwrap_or(&[]), out);
-            }),
+        match simd.0 {
+            None => cascade.push(Scalar, plan, &mut kept, decoder, row),
             Some(level) => dispatch!(level, simd => {
-                cascade.push(
-                    Vector(simd),
-                    plan,
-                    &mut kept,
-                    #[inline(always)]
-                    |columns, out| {
-                        decoder.row(row.get(columns.start..columns.end).unwrap_or(&[]), out);
-                    },
-                );
+                cascade.push(Vector(simd), plan, &mut kept, decoder, row);
             }),
         }
     }
@@ -126,5 +117,65 @@ impl Plan {
             Course { rows, outputs, circular: true }
         };
         self.levels.iter().enumerate().map(course).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::texel::Texel;
+    use crate::{Decimation, StraightAlpha, TexelFormat, Wrap};
+    use proptest::prelude::*;
+    use scumble_pixel::WorkingSpace;
+
+    fn levels<P: Channels>(
+        [w, h]: [usize; 2],
+        pixels: &[P],
+        options: &TextureOptions,
+        simd: Simd,
+    ) -> Vec<Vec<Texel>> {
+        let format = TexelFormat::<P, StraightAlpha>::straight();
+        let decoder = Decoder::new(format, options.space, w * h);
+        let mut making = Making::<Texel>::new([w, h], options, Vec::new()).unwrap();
+        making.simd = simd;
+        while let Some(y) = making.next() {
+            making.push(&decoder, &pixels[y * w..][..w]);
+        }
+        making.finish().into_iter().map(|level| level.texels).collect()
+    }
+
+    fn agree<P: Channels>(size: [usize; 2], pixels: &[P], options: &TextureOptions) {
+        let scalar = levels(size, pixels, options, Simd::SCALAR);
+        for simd in Simd::all() {
+            assert_eq!(levels(size, pixels, options, simd), scalar, "{simd:?} {options:?}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn every_instruction_set_makes_the_same_levels(
+            (w, h) in prop_oneof![(1usize..80, 1usize..50), Just((64, 64)), Just((136, 12))],
+            pixels in prop::collection::vec(any::<[u8; 4]>(), 80 * 64),
+            linear: bool,
+            kaiser: bool,
+            repeat: bool,
+        ) {
+            let options = TextureOptions {
+                space: if linear { WorkingSpace::Linear } else { WorkingSpace::Srgb },
+                decimation: if kaiser { Decimation::Kaiser } else { Decimation::Box },
+                wrap: if repeat { Wrap::Repeat } else { Wrap::Clamp },
+                ..TextureOptions::default()
+            };
+            let pixels = &pixels[..w * h];
+            agree([w, h], pixels, &options);
+            let opaque: Vec<[u8; 4]> = pixels.iter().map(|&[r, g, b, _]| [r, g, b, 255]).collect();
+            agree([w, h], &opaque, &options);
+            let colors: Vec<[u8; 3]> = pixels.iter().map(|&[r, g, b, _]| [r, g, b]).collect();
+            agree([w, h], &colors, &options);
+            prop_assert_eq!(
+                levels([w, h], &opaque, &options, Simd::best()),
+                levels([w, h], &colors, &options, Simd::best())
+            );
+        }
     }
 }

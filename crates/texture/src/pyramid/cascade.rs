@@ -1,6 +1,8 @@
 //! From rows of the image to the rows of all levels, in one go.
 
 use crate::TextureError;
+use crate::decode::Decoder;
+use crate::format::{Alpha, Channels};
 use crate::level::{Level, zeroed};
 use crate::pyramid::filter::{self, Lanes, Line};
 use crate::pyramid::plan::{Plan, Span};
@@ -52,17 +54,19 @@ impl<T: Cell> Cascade<T> {
         (!rung.is_full()).then(|| rung.index())
     }
 
-    /// Takes the next row: `read` gets its columns and where to put their texels.
+    /// Takes the next row of the image.
     #[inline(always)]
-    pub(crate) fn push(
+    pub(crate) fn push<P: Channels, A: Alpha>(
         &mut self,
         lanes: impl Lanes,
         plan: &Plan,
         sink: &mut impl Sink<T>,
-        read: impl FnOnce(Span, &mut [T]),
+        decoder: &Decoder<P, A>,
+        row: &[P],
     ) {
         let Some(rung) = self.rungs.first_mut() else { return };
-        read(rung.columns(), rung.slot());
+        let Span { start, end } = rung.columns();
+        decoder.row(lanes, row.get(start..end).unwrap_or(&[]), rung.slot());
         self.settle(lanes, plan, sink, 0);
     }
 
