@@ -73,6 +73,7 @@ mod path;
 mod plane;
 mod ramp;
 mod rect;
+mod rectify;
 #[cfg(feature = "paths")]
 mod stroke;
 mod tiles;
@@ -94,6 +95,7 @@ pub use path::{Path, PathElement};
 pub use plane::Plane;
 pub use ramp::Ramp;
 pub use rect::{IntRect, Rect};
+pub use rectify::{Rectified, Winding};
 #[cfg(feature = "paths")]
 pub use stroke::{Cap, Join, StrokeStyle};
 pub use tiles::{BandStarts, TileBins, TileGrid};

@@ -14,6 +14,7 @@ use scumble_scene::{
     TexturedTriangle, View,
 };
 use scumble_texture::{LevelMode, PixelFilter, Sampler, Texture};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// An image of the scene, ready to be sampled.
 #[derive(Debug)]
@@ -107,6 +108,9 @@ const LEAST_PART: usize = 1024;
 /// Parts for each thread: enough that a heavy one does not leave the others idle.
 const PARTS_PER_THREAD: usize = 4;
 
+/// The most parts: each has a list for every band.
+const MOST_PARTS: usize = 32;
+
 /// Makes the primitives of a scene for given settings, part by part where there are threads.
 pub(crate) fn build<'a>(
     scene: &Scene,
@@ -115,19 +119,19 @@ pub(crate) fn build<'a>(
     pool: &Pool,
 ) -> Plan<'a> {
     let commands = &scene.commands[..];
-    let make = |commands: &[Command]| {
-        let whole = commands.len() == scene.commands.len();
-        Planner::new(scene, settings, surfaces).part(commands, whole)
-    };
+    let planner = || Planner::new(scene, settings, surfaces);
     let mut parts = Vec::new();
     if pool.threads() > 1 {
-        let step = commands.len().div_ceil(pool.threads() * PARTS_PER_THREAD).max(LEAST_PART);
+        let count = (pool.threads() * PARTS_PER_THREAD).min(MOST_PARTS);
+        let step = commands.len().div_ceil(count).max(LEAST_PART);
+        let (whole, spent) = (step >= commands.len(), AtomicU64::new(0));
+        let make = |commands| planner().part(commands, whole, &spent);
         parts = pool.map(commands.chunks(step).collect(), make);
     }
-    if pool.threads() <= 1 || parts.iter().any(|part| part.layered) {
-        parts = vec![make(commands)];
+    if pool.threads() <= 1 || parts.len() > 1 && parts.iter().any(|part| part.layered) {
+        parts = vec![planner().part(commands, true, &AtomicU64::new(0))];
     }
-    parts.push(Planner::new(scene, settings, surfaces).frame(&scene.view));
+    parts.push(planner().frame(&scene.view));
     let mut first = 0;
     for part in &mut parts {
         part.first = first;
@@ -203,14 +207,18 @@ impl<'a> Planner<'a> {
     }
 
     /// The primitives of some commands: of the `whole` scene, or else up to the first that does
-    /// something to layers.
-    fn part(mut self, commands: &[Command], whole: bool) -> Part {
+    /// something to layers. `spent` counts what all parts take for outlines.
+    fn part(mut self, commands: &[Command], whole: bool, spent: &AtomicU64) -> Part {
         self.part.draws.reserve_exact(commands.len());
         self.part.bounds.reserve_exact(commands.len());
         for command in commands {
+            let before = self.part.outline_bytes;
             self.command(command);
-            // In the second case the caller refuses the plan; no need to make more of it.
-            if self.part.layered && !whole || self.part.outline_bytes > self.settings.max_memory {
+            let more = self.part.outline_bytes - before;
+            // With too much the caller refuses the plan; no need to make more of it.
+            let refused = more > 0
+                && spent.fetch_add(more, Ordering::Relaxed) + more > self.settings.max_memory;
+            if refused || self.part.layered && !whole {
                 break;
             }
         }
