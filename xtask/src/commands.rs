@@ -102,7 +102,13 @@ pub(crate) fn gallery(check: bool) -> Outcome {
     finish(&mut command, "lab gallery")
 }
 
-/// `cargo bench` over the workspace with the given arguments.
+/// `cargo bench` over the workspace with the given arguments; after `--peers`, the comparison with
+/// other programs, with arguments for it.
 pub(crate) fn bench(args: &[&str]) -> Outcome {
+    if let ["--peers", rest @ ..] = args {
+        finish(&mut cargo(["build", "--release", "-p", "scumble-cli"]), "the build of scumble")?;
+        let run = ["run", "--release", "--quiet", "-p", "lab", "--bin", "peers", "--"];
+        return finish(cargo(run).args(rest), "the comparison");
+    }
     finish(cargo(["bench", "--workspace"]).args(args), "cargo bench")
 }

@@ -23,6 +23,8 @@ cargo xtask COMMAND
                                       docs/quality.md, or compare it; say what they take
   gallery [--check]                   draw docs/gallery/ anew, or compare it
   bench [ARGS]                        cargo bench over the workspace
+  bench --peers [ARGS]                scumble warp beside OpenCV and ImageMagick, where they are
+                                      installed (--help lists the arguments)
   help                                this text
 ";
 

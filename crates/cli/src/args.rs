@@ -141,7 +141,7 @@ pub(crate) struct Files {
 
     /// Replace what stands in the picture's place, whatever it is
     ///
-    /// Needed when OUT was not named and the file exists; when the file is not a PNG; when it is
+    /// Needed when OUT was not named and the file exists; when the file is no picture; when it is
     /// the scene or one of its images; and for a device or a pipe, which is written to as it is.
     #[arg(long)]
     pub(crate) force: bool,

@@ -11,6 +11,8 @@ mod filter;
 mod input;
 mod interrupt;
 mod output;
+#[allow(dead_code, unused_imports)]
+mod picture;
 mod plain;
 mod png_sink;
 mod progress;

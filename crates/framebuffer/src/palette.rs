@@ -1,3 +1,4 @@
+use crate::encode_row;
 use alloc::vec::Vec;
 use scumble_pixel::{Premul, WorkingSpace};
 
@@ -22,6 +23,14 @@ impl Palette {
     pub fn push(&mut self, color: Premul) {
         self.colors.push(color);
         self.codes.push(self.space.export(color));
+    }
+
+    /// Adds the colours of the next keys, all in one go: much quicker than one by one.
+    pub fn extend(&mut self, colors: impl IntoIterator<Item = Premul>) {
+        let first = self.colors.len();
+        self.colors.extend(colors);
+        self.codes.resize(self.colors.len(), [0; 4]);
+        encode_row(&self.colors[first..], self.space, &mut self.codes[first..]);
     }
 
     /// The working space of the colours.

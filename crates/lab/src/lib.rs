@@ -22,6 +22,7 @@ pub mod exchange;
 pub mod gallery;
 pub mod map;
 mod math;
+pub mod peers;
 pub mod quality;
 mod scenes;
 mod svg;

@@ -21,6 +21,7 @@ mod settings;
 mod sink;
 mod textures;
 mod tile;
+pub mod warp;
 
 pub use control::{Control, Progress};
 pub use error::RenderError;

@@ -63,7 +63,7 @@ impl Pool {
         }
     }
 
-    fn for_each<T: Send>(&self, items: Vec<T>, f: impl Fn(T) + Sync + Send) {
+    pub(crate) fn for_each<T: Send>(&self, items: Vec<T>, f: impl Fn(T) + Sync + Send) {
         match self {
             Self::Serial => items.into_iter().for_each(f),
             #[cfg(feature = "parallel")]
@@ -85,6 +85,44 @@ pub(crate) fn buffered_rows(grid: &TileGrid, threads: usize) -> usize {
     2 * (bands_per_group(grid, threads) * grid.side() as usize).min(grid.area().height() as usize)
 }
 
+/// Why rows stopped coming.
+pub(crate) enum Stopped<E> {
+    /// The caller's flag was set.
+    Cancelled,
+    /// The sink failed.
+    Sink(E),
+}
+
+/// Renders groups of rows, one after the other, and hands each to the sink while the next is
+/// rendered. `render` says which rows of `height` the group has that it put into the buffer.
+pub(crate) fn pump<P: Send + Sync, S: Sink<P>>(
+    groups: usize,
+    height: u32,
+    (pool, control): (&Pool, &Control<'_>),
+    sink: &mut S,
+    mut render: impl FnMut(usize, &mut Vec<P>) -> Range<u32> + Send,
+) -> Result<(), Stopped<S::Error>> {
+    let (mut ready, mut next) = (Vec::new(), Vec::new());
+    let mut ready_rows = 0..0;
+    // One round more than there are groups: the last only hands over.
+    for group in 0..=groups {
+        let (taken, rows) = pool.join(
+            || if ready_rows.is_empty() { Ok(()) } else { sink.rows(ready_rows.start, &ready) },
+            || if group < groups { render(group, &mut next) } else { 0..0 },
+        );
+        taken.map_err(Stopped::Sink)?;
+        if control.is_cancelled() {
+            return Err(Stopped::Cancelled);
+        }
+        if !ready_rows.is_empty() {
+            control.report(ready_rows.end, height);
+        }
+        std::mem::swap(&mut ready, &mut next);
+        ready_rows = rows;
+    }
+    Ok(())
+}
+
 /// Renders all bands and hands them to the sink, which takes one group of bands while the next
 /// is rendered.
 pub(crate) fn run<S: Sink>(
@@ -98,28 +136,18 @@ pub(crate) fn run<S: Sink>(
     let step = bands_per_group(&grid, pool.threads());
     let mut groups =
         Groups { job, grid, bins, pool, control, lists: Vec::new(), idle: Mutex::default() };
-    let (mut ready, mut next) = (Vec::new(), Vec::new());
-    let mut ready_rows = 0..0;
-    // One round more than there are groups: the last only hands over.
-    for group in 0..=grid.bands().div_ceil(step) {
-        let band = |group: usize| (group * step).min(grid.bands());
-        let bands = band(group)..band(group + 1);
+    let count = grid.bands().div_ceil(step);
+    let render = |group: usize, buffer: &mut Vec<[u8; 4]>| {
+        let bands = group * step..((group + 1) * step).min(grid.bands());
         let rows = groups.rows(&bands);
-        let (taken, ()) = pool.join(
-            || if ready_rows.is_empty() { Ok(()) } else { sink.rows(ready_rows.start, &ready) },
-            || groups.render(bands, &mut next),
-        );
-        taken.map_err(RenderError::Sink)?;
-        if control.is_cancelled() {
-            return Err(RenderError::Cancelled);
-        }
-        if !ready_rows.is_empty() {
-            control.report(ready_rows.end, grid.area().height());
-        }
-        std::mem::swap(&mut ready, &mut next);
-        ready_rows = rows;
-    }
-    Ok(())
+        groups.render(bands, buffer);
+        rows
+    };
+    let outcome = pump(count, grid.area().height(), (pool, control), sink, render);
+    outcome.map_err(|stopped| match stopped {
+        Stopped::Cancelled => RenderError::Cancelled,
+        Stopped::Sink(error) => RenderError::Sink(error),
+    })
 }
 
 struct Groups<'a> {

@@ -109,13 +109,11 @@ impl Job<'_> {
     /// The colours of the background and of primitives that have but one.
     fn palette(&self, locals: &[Local<'_>]) -> Palette {
         let mut palette = Palette::new(self.settings.space);
-        palette.push(self.background);
-        for local in locals {
-            match local.draw.paint {
-                Paint::Solid(color) => palette.push(color),
-                _ => palette.push(Premul::TRANSPARENT),
-            }
-        }
+        let color = |local: &Local<'_>| match local.draw.paint {
+            Paint::Solid(color) => color,
+            _ => Premul::TRANSPARENT,
+        };
+        palette.extend(std::iter::once(self.background).chain(locals.iter().map(color)));
         palette
     }
 }

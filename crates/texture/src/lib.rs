@@ -105,10 +105,12 @@
 extern crate alloc;
 
 mod batch;
+mod builder;
 mod classic;
 pub mod compare;
 mod covariance;
 mod decimate;
+mod decode;
 mod engine;
 mod error;
 mod ewa;
@@ -132,6 +134,7 @@ mod probes;
 pub mod procedural;
 mod pyramid;
 mod radial;
+mod reach;
 pub mod reference;
 mod sampler;
 mod separable;
@@ -143,9 +146,12 @@ mod walk;
 mod walk_simd;
 mod wrap;
 
+pub use builder::TextureBuilder;
 pub use error::TextureError;
 pub use footprint::Footprint;
-pub use format::{Alpha, Channel, Channels, PremultipliedAlpha, StraightAlpha, Texels};
+pub use format::{
+    Alpha, Channel, Channels, PremultipliedAlpha, StraightAlpha, TexelFormat, Texels,
+};
 pub use kernel::{Kernel, RadialFilter};
 pub use magnify::Magnify;
 pub use names::UnknownName;

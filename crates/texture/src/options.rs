@@ -1,4 +1,5 @@
 use crate::Wrap;
+use scumble_geometry::IntRect;
 use scumble_pixel::WorkingSpace;
 
 /// The filter that makes each level of a pyramid from the finer one.
@@ -45,7 +46,7 @@ pub enum Levels {
     ///
     /// Where the footprint asks for a finer level the first is magnified, and for a coarser one the
     /// last costs more texels, up to a budget. Positions and Jacobians stay in texels of the image.
-    /// While the texture is made, the finer levels are there too.
+    /// The finer levels are not kept, and not made either but for some rows at a time.
     Range {
         /// The finest level to keep; 0 is the image.
         first: usize,
@@ -65,4 +66,18 @@ pub struct TextureOptions {
     pub decimation: Decimation,
     /// The levels to build.
     pub levels: Levels,
+    /// The part of the image, in its texels, that samples will read; `None` for all of it.
+    ///
+    /// Of each level only what lies under the window is kept, and eight texels of that level around
+    /// it; only what that is made of is converted. A coarse level, of which a few texels are the whole
+    /// image, is made of the whole image: a window saves most with [`Levels::BaseOnly`] or
+    /// [`Levels::Range`].
+    ///
+    /// That nothing else is read is the caller's promise: [`Sampler::reach`](crate::Sampler::reach)
+    /// says how far a footprint reads around its centre. Samples whose ellipses lie in the window are
+    /// those of the whole texture, bit for bit. Others take the nearest texel that is kept for those
+    /// that are not; nothing worse comes of it. Beyond the edges of the image [`Wrap`] goes on as ever,
+    /// so where it repeats or mirrors the window must hold what is read there. What lies outside the
+    /// image is taken off the window, and of a window without a texel one is kept.
+    pub window: Option<IntRect>,
 }

@@ -55,8 +55,7 @@ impl Point for Nearest {
         let mut texels = [[0; 4]; N];
         if holds(level, &x, &y, 1) {
             for i in 0..N {
-                let row = y[i] as u32 as usize * level.stride;
-                texels[i] = level.texels[row + x[i] as u32 as usize];
+                texels[i] = level.texels[level.index(x[i], y[i])];
             }
         } else {
             for i in 0..N {
@@ -94,9 +93,9 @@ impl Point for Bilinear {
         let inside = holds(level, &x, &y, 2);
         let mut colors = [[0.0; 4]; N];
         for i in 0..N {
-            let top = y[i] as u32 as usize * level.stride + x[i] as u32 as usize;
-            let bottom = top + level.stride;
-            let run = |i: usize| level.texels.get(i..i + 2)?.first_chunk();
+            let top = level.index(x[i], y[i]);
+            let bottom = top.wrapping_add(level.stride);
+            let run = |i: usize| level.texels.get(i..)?.first_chunk();
             colors[i] = match (run(top), run(bottom)) {
                 (Some(top), Some(bottom)) if inside => engine.bilinear(top, bottom, fx[i], fy[i]),
                 _ => {
@@ -109,13 +108,14 @@ impl Point for Bilinear {
     }
 }
 
-/// Whether the squares of `side` texels from (x, y) on lie in the level, all of them.
+/// Whether the squares of `side` texels from (x, y) on are kept, all of them.
 #[inline(always)]
 fn holds<const N: usize>(level: &Level, x: &[i32; N], y: &[i32; N], side: i32) -> bool {
-    let (right, bottom) = (level.width as i32 - side, level.height as i32 - side);
+    let [left, top] = level.part.map(|span| span.start as i32);
+    let [right, bottom] = level.part.map(|span| span.end as i32 - side);
     let mut inside = true;
     for i in 0..N {
-        inside &= (x[i] >= 0) & (y[i] >= 0) & (x[i] <= right) & (y[i] <= bottom);
+        inside &= (x[i] >= left) & (y[i] >= top) & (x[i] <= right) & (y[i] <= bottom);
     }
     inside
 }

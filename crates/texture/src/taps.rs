@@ -51,13 +51,14 @@ pub(crate) fn sample(level: &Level, wrap: Wrap, f: &Footprint) -> [f32; 4] {
     let places = Places::new(f);
     let (low, high) = places.reach();
     let [x, y] = places.base;
-    let inside = (x + low[0] >= 0)
-        & (y + low[1] >= 0)
-        & (x + high[0] < level.width as i32)
-        & (y + high[1] < level.height as i32);
+    let [columns, rows] = level.part;
+    let inside = (x + low[0] >= columns.start as i32)
+        & (y + low[1] >= rows.start as i32)
+        & (x + high[0] < columns.end as i32)
+        & (y + high[1] < rows.end as i32);
     if inside {
         // Every index is in range; and if it were not, the texel would be black, and no panic.
-        let first = y as usize * level.stride + x as usize;
+        let first = level.index(x, y);
         places.average(|x, y| {
             let i = first as isize + y as isize * level.stride as isize + x as isize;
             let rest = level.texels.get(i as usize..).unwrap_or_default();

@@ -7,6 +7,7 @@ use crate::ewa::Limits;
 use crate::gaussian::{UNIT, weight};
 use crate::level::{Frame, Level};
 use crate::math::{floor, floor32, sqrt32, whole};
+use crate::pyramid::plan::Span;
 use crate::texel::{STEP, Texel, of_color};
 
 /// Rows walked together, and texels of each. Their weights are one vector of sixteen floats, and most
@@ -80,10 +81,10 @@ impl Walk {
         let start = |j: f32| floor32(slope * (j - fy) + (fx - run)) + 1.0;
         let (a, b) = (start(first), start(last));
         let (left, right) = (a.min(b), a.max(b) + 4.0 * groups);
-        let inside = (x0 + f64::from(left) >= frame.low)
-            & (x0 + f64::from(right) <= frame.size[0])
-            & (y0 + f64::from(first) >= frame.low)
-            & (y0 + f64::from(last) < frame.size[1]);
+        let inside = (x0 + f64::from(left) >= frame.low[0])
+            & (x0 + f64::from(right) <= frame.high[0])
+            & (y0 + f64::from(first) >= frame.low[1])
+            & (y0 + f64::from(last) < frame.high[1]);
         Self {
             x0: whole(x0),
             y0: whole(y0),
@@ -147,7 +148,7 @@ impl Walk {
             Wrap::Repeat => level.row_with_apron(y),
             _ => level.row(y),
         });
-        Row { texels, width: level.width, wrap }
+        Row { texels, columns: level.part[0], width: level.width, wrap }
     }
 }
 
@@ -155,7 +156,9 @@ impl Walk {
 #[derive(Clone, Copy)]
 pub(crate) struct Row<'a> {
     texels: Option<&'a [Texel]>,
-    /// Texels without the apron.
+    /// Columns that are kept, the apron apart.
+    columns: Span,
+    /// Columns of the level.
     width: usize,
     wrap: Wrap,
 }
@@ -167,7 +170,8 @@ impl Row<'_> {
     pub(crate) fn with_run<R>(&self, x: i32, f: impl FnOnce(&[Texel; LANES]) -> R) -> R {
         // Sizes are below 2²⁹. In a tile, every run begins in the row, and the apron ends it.
         let x = if self.wrap == Wrap::Repeat { x.rem_euclid(self.width as i32) } else { x };
-        let inside = self.texels.and_then(|row| row.get(usize::try_from(x).ok()?..)?.first_chunk());
+        let place = usize::try_from(x - self.columns.start as i32);
+        let inside = self.texels.and_then(|row| row.get(place.ok()?..)?.first_chunk());
         match inside {
             Some(run) => f(run),
             None => f(&self.collect(x)),
@@ -178,9 +182,9 @@ impl Row<'_> {
     #[inline(never)]
     fn collect(&self, x: i32) -> [Texel; LANES] {
         core::array::from_fn(|i| {
-            let found = self
-                .texels
-                .and_then(|row| self.wrap.resolve(x + i as i32, self.width).map(|x| row[x]));
+            let found = self.texels.and_then(|row| {
+                Some(row[self.columns.place(self.wrap.resolve(x + i as i32, self.width)?)])
+            });
             found.unwrap_or_else(|| of_color(self.wrap.border()))
         })
     }

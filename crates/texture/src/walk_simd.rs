@@ -91,7 +91,7 @@ fn weigh<S: Simd>(simd: S, level: &Level, w: &Walk, pieces: &mut [Piece]) {
         let block = Block::new(simd, w, j);
         let mut starts = block.columns(w);
         let mut columns = f32x16::load_array(simd, COLUMNS);
-        let rows = ((row + j) & mask_y) * stride;
+        let rows = ((row + j) & mask_y) * stride - level.base;
         for (_, piece) in (0..w.groups).zip(&mut pieces) {
             piece.weights = block.weights(simd, w, columns).to_array();
             piece.offsets = (rows + (starts & mask_x)).to_array();

@@ -30,7 +30,7 @@ fn options() -> impl Strategy<Value = TextureOptions> {
         1 => (0usize..7, 0usize..7).prop_map(|(first, last)| Levels::Range { first, last }),
     ];
     (space, wraps(), decimation, levels).prop_map(|(space, wrap, decimation, levels)| {
-        TextureOptions { space, wrap, decimation, levels }
+        TextureOptions { space, wrap, decimation, levels, window: None }
     })
 }
 

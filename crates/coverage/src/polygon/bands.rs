@@ -173,7 +173,7 @@ impl Bands {
         mut meet: impl FnMut(&PolygonEdge),
     ) {
         let mut look = |e: &PolygonEdge| {
-            if e.right() <= left {
+            if e.right() < left {
                 side.add_edge(e, top, bottom);
             } else if e.left() <= right {
                 meet(e);
@@ -187,7 +187,7 @@ impl Bands {
         };
         let b = ((top >> (8 + self.shift)) - self.first) as usize;
         let (from, end) = (columns.starts[b] as usize, columns.starts[b + 1] as usize);
-        let passed = |mark: &Mark| self.edges[mark.edge as usize - 1].right() <= left;
+        let passed = |mark: &Mark| self.edges[mark.edge as usize - 1].right() < left;
         let from = from + columns.marks[from + 1..end].partition_point(passed);
         let marks = &columns.marks[from..=end];
         let mut meets = |e: &PolygonEdge| {
