@@ -13,8 +13,9 @@ use fearless_simd::{Simd, f32x16, f64x4, i16x16, i16x32, i32x4, i32x8, i32x16, p
 /// How many.
 pub(crate) const ABREAST: usize = 16;
 
-/// Quads of each walk that are weighed before their texels are read: a fifth of a first-level cache.
-const QUADS: usize = 36;
+/// Quads of each walk that are weighed before their texels are read: as many as most ellipses of the
+/// default have. More take longer to clear for each run of pixels.
+const QUADS: usize = 24;
 
 /// An exponent beyond every cut.
 pub(crate) const NOTHING: f32 = 16.0;

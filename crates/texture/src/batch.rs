@@ -148,14 +148,14 @@ impl Chosen {
         } else {
             fill_walks(e, |i| &level(i).frame, limits, &mut walks, &mut rare);
         }
-        for i in 0..BATCH {
+        for (i, rare) in rare.into_iter().enumerate() {
             let level = level(i);
             walks.stride[i] = level.stride as i32;
             [walks.mask_x[i], walks.mask_y[i]] = level.mask;
             walks.level[i] = (self.pick[i].level + on).min(last) as u32;
             if !wanted(i) {
                 walks.how[i] = IDLE;
-            } else if rare[i] != 0 {
+            } else if rare != 0 {
                 let sigma = e.get(i).at_level(&level.frame);
                 let index = walks.level[i] as usize;
                 let walk = walk_in(t, index, e.u[i], e.v[i], sigma, limits);
@@ -176,12 +176,12 @@ fn fill_walks<'a>(
     o: &mut Walks,
     rare: &mut [i32; BATCH],
 ) {
-    for i in 0..BATCH {
+    for (i, rare) in rare.iter_mut().enumerate() {
         let frame = frame(i);
         let sigma = e.get(i).at_level(frame);
         let w = Walk::new(e.u[i], e.v[i], frame, &sigma, limits);
         o.set(i, &w);
         o.how[i] = ALONE + w.inside;
-        rare[i] = i32::from(sigma.needs_mending(frame, limits));
+        *rare = i32::from(sigma.needs_mending(frame, limits));
     }
 }
