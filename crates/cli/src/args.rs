@@ -1,11 +1,15 @@
 //! The command line: what can be said, and the help that explains it.
 
 mod choice;
+mod compare;
+mod signal;
 mod value;
 
 pub(crate) use choice::{
     Antialias, Interpolate, Level, Pattern, Pixel, Profile, Shade, Space, name as choice_name,
 };
+pub(crate) use compare::Compare;
+pub(crate) use signal::{Border, Convolution, Filter, Memory, Of, Spectrum, Window};
 pub(crate) use value::{Background, Crop};
 
 use clap::{Args, Parser, Subcommand, ValueHint};
@@ -41,6 +45,12 @@ Exit status: 0 done · 1 failure · 2 wrong arguments · 3 a limit was hit · 13
 pub(crate) enum Command {
     /// Draw a scene into a PNG
     Render(Box<Render>),
+    /// Draw a scene by several settings, side by side on a sheet with labels
+    Compare(Box<Compare>),
+    /// Show the frequencies of a picture
+    Spectrum(Box<Spectrum>),
+    /// Keep some of the frequencies of a picture, or convolve it
+    Filter(Box<Filter>),
     /// Print a completion script for a shell
     #[command(after_help = COMPLETIONS_HELP)]
     Completions {
@@ -115,7 +125,7 @@ Exit status:
   A picture appears whole or not at all: it is written beside its place and renamed.";
 
 /// Where things come from and whether they may be replaced.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Files")]
 pub(crate) struct Files {
     /// How to read the scene
@@ -131,14 +141,14 @@ pub(crate) struct Files {
 
     /// Replace what stands in the picture's place, whatever it is
     ///
-    /// Needed when OUT was not named and the file exists; when the file is not a PNG; when it is
+    /// Needed when OUT was not named and the file exists; when the file is no picture; when it is
     /// the scene or one of its images; and for a device or a pipe, which is written to as it is.
     #[arg(long)]
     pub(crate) force: bool,
 }
 
 /// How large the canvas is, and which part of it to draw.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Size")]
 pub(crate) struct Size {
     /// Width of the canvas in pixels; without -H the aspect is kept
@@ -161,7 +171,7 @@ pub(crate) struct Size {
 }
 
 /// What a pixel is made of.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Quality")]
 pub(crate) struct Quality {
     /// How edges are made smooth: all primitives together by samples, without seams, or each for
@@ -216,7 +226,7 @@ pub(crate) struct Quality {
 }
 
 /// Colours.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Colour")]
 pub(crate) struct Color {
     /// The space in which colours are averaged and blended [default: srgb]
@@ -230,7 +240,7 @@ pub(crate) struct Color {
 }
 
 /// What a run may use.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Limits")]
 pub(crate) struct Limits {
     /// Threads to draw with; 0 is one for every core
@@ -247,7 +257,7 @@ pub(crate) struct Limits {
 }
 
 /// What to say.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Report")]
 pub(crate) struct Report {
     /// Say nothing but errors: no warnings, no progress bar

@@ -1,4 +1,4 @@
-//! The scene's text: from a file or standard input, no longer than it may be.
+//! What is read: from a file or standard input, no longer than it may be.
 
 use crate::args::STANDARD_STREAM;
 use crate::error::Failure;
@@ -57,7 +57,7 @@ impl Source {
         match text {
             Ok(Some(text)) => Ok(text),
             Ok(None) => Err(Failure::Limit(format!(
-                "{}: the scene is longer than {max} bytes, which --max-memory sets",
+                "{}: the file is longer than {max} bytes, which --max-memory sets",
                 self.name()
             ))),
             Err(e) => Err(Failure::io(self.name(), &e)),

@@ -1,13 +1,19 @@
-//! The `scumble` command. `scumble render SCENE` draws a scene into a PNG.
+//! The `scumble` command. `scumble render SCENE` draws a scene into a PNG, `scumble compare` draws one by
+//! several settings; `scumble spectrum` and `scumble filter` are for pictures.
 //!
 //! Exit status: 0 done, 1 failure, 2 wrong arguments, 3 a limit was hit, 128 + n ended by signal n.
 //! Errors are one line each on standard error, `scumble: FILE:LINE:COLUMN: what is wrong`.
 
 mod args;
+mod compare;
 mod error;
+mod filter;
 mod input;
 mod interrupt;
 mod output;
+#[allow(dead_code, unused_imports)]
+mod picture;
+mod plain;
 mod png_sink;
 mod progress;
 mod render;
@@ -15,6 +21,7 @@ mod report;
 mod resources;
 mod settings;
 mod size;
+mod spectrum;
 
 use args::{Cli, Command};
 use clap::{CommandFactory, Parser};
@@ -25,6 +32,9 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Render(options) => render::run(&options),
+        Command::Compare(options) => compare::run(&options),
+        Command::Spectrum(options) => spectrum::run(&options),
+        Command::Filter(options) => filter::run(&options),
         Command::Completions { shell } => completions(shell),
     };
     match result {

@@ -2,17 +2,9 @@
 
 use crate::error::Failure;
 use crate::interrupt::Interrupt;
-use crate::output::{Output, Pipe, Target};
-use png::{BitDepth, ColorType, DeflateCompression, Encoder, Filter, SrgbRenderingIntent};
-use std::io::Write;
+use crate::output::Target;
+use crate::picture::{Channels, Depth, Form, Format, Writer, out_of_turn};
 use std::time::{Duration, Instant};
-
-/// Effort of the compressor. Level 1 halves the time but doubles flat art; the png crate's default,
-/// 6, saves 2 to 12 % of the size and takes two to five times as long.
-const COMPRESSION: DeflateCompression = DeflateCompression::Level(2);
-
-/// Bytes of compressed data in a chunk, which is what the encoder holds back.
-const CHUNK_BYTES: usize = 64 << 10;
 
 /// A sink that writes a PNG: eight bits, sRGB, with alpha only where there may be some.
 #[derive(Debug)]
@@ -20,36 +12,16 @@ pub(crate) struct PngSink<'a> {
     target: &'a Target,
     interrupt: &'a Interrupt,
     opaque: bool,
-    // Before the encoder, and so dropped before it: what an encoder writes as it is dropped
-    // would make an unfinished picture look like a finished one.
-    output: Option<Output>,
-    encoder: Option<StreamWriter>,
+    writer: Option<Writer>,
     packed: Vec<u8>,
     spent: Duration,
-}
-
-/// The png crate's encoder, apart from its `Debug`.
-struct StreamWriter(png::StreamWriter<'static, Pipe>);
-
-impl std::fmt::Debug for StreamWriter {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("StreamWriter")
-    }
 }
 
 impl<'a> PngSink<'a> {
     /// A sink that opens `target` when the first row is near. `opaque` promises that every pixel
     /// has full alpha, which is then not stored.
     pub(crate) fn new(target: &'a Target, interrupt: &'a Interrupt, opaque: bool) -> Self {
-        Self {
-            target,
-            interrupt,
-            opaque,
-            output: None,
-            encoder: None,
-            packed: Vec::new(),
-            spent: Duration::ZERO,
-        }
+        Self { target, interrupt, opaque, writer: None, packed: Vec::new(), spent: Duration::ZERO }
     }
 
     /// Time spent on encoding and writing so far.
@@ -58,28 +30,18 @@ impl<'a> PngSink<'a> {
     }
 
     /// Gives the finished picture its name.
-    pub(crate) fn commit(mut self) -> Result<(), Failure> {
-        drop(self.encoder.take());
-        match self.output.take() {
-            Some(output) => output.commit(),
+    pub(crate) fn commit(self) -> Result<(), Failure> {
+        match self.writer {
+            Some(writer) => writer.commit(),
             None => Err(Failure::Failed("nothing was drawn".to_owned())),
         }
     }
 
     fn open(&mut self, width: u32, height: u32) -> Result<(), Failure> {
-        let output = Output::open(self.target, self.interrupt)?;
-        let color = if self.opaque { ColorType::Rgb } else { ColorType::Rgba };
-        let mut encoder = Encoder::new(output.pipe(), width, height);
-        encoder.set_color(color);
-        encoder.set_depth(BitDepth::Eight);
-        encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-        encoder.set_filter(Filter::Adaptive);
-        encoder.set_deflate_compression(COMPRESSION);
-        let stream = encoder
-            .write_header()
-            .and_then(|writer| writer.into_stream_writer_with_size(CHUNK_BYTES));
-        self.encoder = Some(StreamWriter(stream.map_err(|e| output.failure(&e))?));
-        self.output = Some(output);
+        let channels = if self.opaque { Channels::Rgb } else { Channels::Rgba };
+        let (depth, format) = (Depth::Eight, Format::Png);
+        let form = Form { width, height, channels, depth, format, icc: None };
+        self.writer = Some(Writer::open(self.target, self.interrupt, form)?);
         Ok(())
     }
 
@@ -91,13 +53,11 @@ impl<'a> PngSink<'a> {
         } else {
             pixels.as_flattened()
         };
-        let Some(encoder) = &mut self.encoder else { return Err(out_of_turn()) };
-        encoder.0.write_all(bytes).map_err(|e| failure(self.output.as_ref(), &e))
+        self.writer.as_mut().ok_or_else(out_of_turn)?.rows8(bytes)
     }
 
     fn close(&mut self) -> Result<(), Failure> {
-        let encoder = self.encoder.take().ok_or_else(out_of_turn)?;
-        encoder.0.finish().map_err(|e| failure(self.output.as_ref(), &e))
+        self.writer.as_mut().ok_or_else(out_of_turn)?.finish()
     }
 
     fn timed<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> T {
@@ -106,15 +66,6 @@ impl<'a> PngSink<'a> {
         self.spent += start.elapsed();
         result
     }
-}
-
-/// The failure behind an error that the encoder reports.
-fn failure(output: Option<&Output>, reported: &dyn std::fmt::Display) -> Failure {
-    output.map_or_else(out_of_turn, |output| output.failure(reported))
-}
-
-fn out_of_turn() -> Failure {
-    Failure::Failed("rows came before the start or after the end".to_owned())
 }
 
 impl scumble::Sink for PngSink<'_> {
@@ -138,6 +89,7 @@ mod tests {
     use super::*;
     use crate::interrupt::tests::unheard;
     use crate::output::FileTarget;
+    use png::ColorType;
     use scumble::Sink;
     use std::fs;
     use std::path::Path;

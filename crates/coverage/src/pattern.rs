@@ -12,6 +12,9 @@ pub struct SamplePattern {
     by_row: Vec<u8>,
     /// The offsets by axis, filled up with copies of the first.
     lanes: [[i32; 64]; 2],
+    /// By axis, in 1/256 pixel from the corner of the first: one sample for each of 2 × 8 pixels,
+    /// or four for each of 8.
+    square: [[i32; 32]; 2],
     /// The smallest and the largest offset by axis.
     extent: [[u8; 2]; 2],
 }
@@ -118,7 +121,8 @@ impl SamplePattern {
             offsets.iter().fold(offsets[0], |p, o| [pick(p[0], o[0]), pick(p[1], o[1])])
         };
         let (lanes, extent) = ([axis(0), axis(1)], [corner(u8::min), corner(u8::max)]);
-        Self { offsets, rows, by_row, lanes, extent }
+        let square = square_lanes(&offsets);
+        Self { offsets, rows, by_row, lanes, square, extent }
     }
 
     /// How many samples, 1 to 64.
@@ -151,6 +155,12 @@ impl SamplePattern {
         &self.lanes
     }
 
+    /// By axis, x first: where the samples of some pixels lie from the corner of the first. With four
+    /// samples those of eight pixels, else the first sample of two rows of eight.
+    pub(crate) fn square_lanes(&self) -> &[[i32; 32]; 2] {
+        &self.square
+    }
+
     /// The corners of the samples' bounding box.
     pub(crate) fn extent(&self) -> [[u8; 2]; 2] {
         self.extent
@@ -160,4 +170,13 @@ impl SamplePattern {
     pub(crate) fn samples_of(&self, row: &SampleRow) -> &[u8] {
         &self.by_row[usize::from(row.first)..usize::from(row.end)]
     }
+}
+
+fn square_lanes(offsets: &[[u8; 2]]) -> [[i32; 32]; 2] {
+    let lane = |axis: usize, i: usize| {
+        let (sample, pixel) =
+            if offsets.len() == 4 { (i % 4, [i / 4, 0]) } else { (0, [i % 8, i / 8]) };
+        i32::from(offsets[sample][axis]) + 256 * pixel[axis] as i32
+    };
+    core::array::from_fn(|axis| core::array::from_fn(|i| lane(axis, i)))
 }

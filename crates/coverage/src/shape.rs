@@ -156,7 +156,7 @@ impl Shape {
     /// The area is that of the snapped shape, exact to about 10⁻⁷ (the error of each edge in a
     /// pixel is 2⁻³², the result an f32), overlaps and crossings counted by the fill rule. It does
     /// not depend on `clip`, and the areas of the pieces of a mesh add up to the area of the whole
-    /// (the [crate] page has the fine print on very crowded polygons).
+    /// (the [crate] page has the fine print on scribbles).
     pub fn rasterize_area(&self, clip: IntRect, scratch: &mut Scratch, sink: &mut impl AreaSink) {
         let region = clip.intersect(&self.bounds());
         if region.is_empty() {

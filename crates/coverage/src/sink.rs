@@ -20,6 +20,47 @@ pub trait Sink {
 
     /// Some samples of one pixel: at least one, not all.
     fn pixel(&mut self, x: i32, y: i32, mask: SampleMask);
+
+    /// Whether small triangles and the rims of large ones are to come in squares of 8 × 8 pixels, by
+    /// [`whole`](Self::whole) and [`parts`](Self::parts). That is by far the quickest for a sink that
+    /// can take them in vectors; one that pays for each call it makes is better off without. It
+    /// is a wish: what is no triangle, and patterns of other than one or four samples, come in the
+    /// other calls all the same.
+    const SQUARES: bool = false;
+
+    /// Every sample of some of the 8 × 8 pixels from (`x`, `y`) on: bit 8·r + c of `pixels`, which
+    /// is not 0, is the pixel (x + c, y + r). Comes only with a pattern of one sample.
+    #[inline]
+    fn whole(&mut self, x: i32, y: i32, pixels: u64) {
+        for (row, y) in pixels.to_le_bytes().into_iter().zip(y..) {
+            each_run(u32::from(row), |from, to| self.run(y, x + from, x + to));
+        }
+    }
+
+    /// Some samples of some of the 8 × 8 pixels from (`x`, `y`) on: bit 4·c + s of `rows[r]` is
+    /// sample s of the pixel (x + c, y + r); a pixel may have all of them. At least one bit is set.
+    /// Comes only with a pattern of four samples.
+    #[inline]
+    fn parts(&mut self, x: i32, y: i32, rows: &[u32; 8]) {
+        for (row, y) in rows.iter().zip(y..) {
+            let nibble = |c: i32| row >> (4 * c) & 0xf;
+            let full = (0..8).fold(0, |full, c| full | u32::from(nibble(c) == 0xf) << c);
+            each_run(full, |from, to| self.run(y, x + from, x + to));
+            for c in (0..8).filter(|&c| nibble(c) % 0xf != 0) {
+                self.pixel(x + c, y, SampleMask(u64::from(nibble(c))));
+            }
+        }
+    }
+}
+
+/// The stretches of bits that are set, from the lowest.
+fn each_run(mut bits: u32, mut run: impl FnMut(i32, i32)) {
+    while bits != 0 {
+        let from = bits.trailing_zeros();
+        let to = from + (bits >> from).trailing_ones();
+        bits &= !((1 << to) - 1);
+        run(from as i32, to as i32);
+    }
 }
 
 /// Receives the covered area of one shape, pixel by pixel.

@@ -249,6 +249,58 @@ fn crowded_rows_are_right_in_the_mean() {
     }
 }
 
+fn scribble(corners: usize, size: [i64; 2]) -> Vec<[i64; 2]> {
+    let mut random = Random::new(11);
+    (0..corners).map(|_| size.map(|side| random.below(side * 256))).collect()
+}
+
+/// What crosses itself everywhere is sampled in the end. The areas must be right in the mean, the same
+/// in every clip, and take no longer than samples do: this would not end in a day if every crossing
+/// were looked for.
+#[test]
+fn a_scribble_is_sampled() {
+    for (corners, rule) in [
+        (300, FillRule::NonZero),
+        (300, FillRule::EvenOdd),
+        (3_000, FillRule::EvenOdd),
+        (30_000, FillRule::EvenOdd),
+    ] {
+        let clip = IntRect::new(0, 0, 96, 64);
+        let shape = polygon(&[scribble(corners, [96, 64])], rule);
+        let whole = areas(shape.clone(), clip);
+        let shape = shape.unwrap();
+        let sampled = raster(&shape, clip, &SamplePattern::grid(64).unwrap());
+        let (mut error, mut count) = (0.0, 0);
+        for y in 0..64 {
+            for x in 0..96 {
+                let area = whole.0.get(&(x, y)).copied().unwrap_or(0.0);
+                let mask = sampled.masks.get(&(x, y)).map_or(0, |mask| mask.count_ones());
+                error += (f64::from(mask) / 64.0 - f64::from(area)).powi(2);
+                count += 1;
+            }
+        }
+        let error = (error / f64::from(count)).sqrt();
+        // Of 64 samples and 128, all of which may know nothing of each other.
+        assert!(
+            error < 0.5 * (1.0f64 / 64.0 + 1.0 / 128.0).sqrt() * 1.1,
+            "{corners} {rule:?}: {error}"
+        );
+        if corners <= 3000 {
+            let mut parts = Areas::default();
+            let mut scratch = Scratch::new();
+            for (x, y) in (0..64).step_by(23).flat_map(|y| (0..96).step_by(13).map(move |x| (x, y)))
+            {
+                let part = IntRect::new(x, y, x + 13, y + 23).intersect(&clip);
+                shape.rasterize_area(part, &mut scratch, &mut parts);
+            }
+            let bits = |areas: Areas| {
+                areas.0.into_iter().filter(|(_, area)| *area > 0.0).collect::<Vec<_>>()
+            };
+            assert!(bits(parts) == bits(whole), "{corners} {rule:?}");
+        }
+    }
+}
+
 /// A star of a million corners: what lies off the clip must not cost.
 #[test]
 fn a_million_corners_are_no_trouble() {

@@ -28,7 +28,37 @@ fn corners() -> impl Strategy<Value = [[i64; 2]; 3]> {
         .prop_map(|(p, far)| p.map(|v| v.map(|c| (c * far).clamp(-(1 << 29), 1 << 29))))
 }
 
+/// Squares tell the samples of the definition, on every level.
+fn check_squares(
+    shape: &Shape,
+    clip: IntRect,
+    pattern: &SamplePattern,
+    definition: &Collected,
+) -> Result<(), TestCaseError> {
+    for level in levels() {
+        let mut found = BySquares(Collected::new(pattern));
+        shape.rasterize(clip, pattern, &mut Scratch::with_level(level), &mut found);
+        prop_assert_eq!(&found.0, definition, "{:?}", level);
+    }
+    Ok(())
+}
+
 proptest! {
+    #[test]
+    fn squares_agree_in_wide_clips(
+        p in [point(160), point(160), point(160)],
+        far in prop::sample::select(vec![1, 9]),
+        corner in (-20..20, -20..20),
+        size in (1..200, 1..40),
+        standard in prop::sample::select(vec![1, 4]),
+    ) {
+        let Some(shape) = triangle(&p.map(|v| v.map(|c| c * far))) else { return Ok(()) };
+        let clip = IntRect::new(corner.0, corner.1, corner.0 + size.0, corner.1 + size.1);
+        let pattern = SamplePattern::standard(standard).unwrap();
+        let definition = by(Traversal::Scanline, &shape, clip, &pattern);
+        check_squares(&shape, clip, &pattern, &definition)?;
+    }
+
     #[test]
     fn all_traversals_and_levels_agree(p in corners(), pattern in any_pattern()) {
         let Some(shape) = triangle(&p) else { return Ok(()) };
@@ -43,6 +73,7 @@ proptest! {
             shape.rasterize(WINDOW, &pattern, &mut scratch, &mut found);
             prop_assert_eq!(&found, &definition, "{:?}", level);
         }
+        check_squares(&shape, WINDOW, &pattern, &definition)?;
     }
 
     #[test]

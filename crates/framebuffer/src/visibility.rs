@@ -1,7 +1,8 @@
-use crate::samples::{mean, mean_of};
-use crate::{Palette, encode_row};
+use crate::Palette;
+use crate::samples::{mean, mean_of, mean4};
 use alloc::vec::Vec;
 use scumble_pixel::Premul;
+use squares::{Rows, SIDE};
 
 /// Which surface is seen in each sample of a tile: a number, the *key*, in place of a colour.
 ///
@@ -29,12 +30,35 @@ pub struct Visibility {
     samples: usize,
     /// All samples of a pixel.
     full: u64,
-    /// Per pixel: the key of all its samples, or [`MIXED`].
+    /// Per pixel: the key of all its samples, or [`MIXED`]. Then [`SIDE`] more, so that as many can
+    /// be written from any pixel on.
     keys: Vec<u32>,
-    /// Per pixel, `groups` of them: the keys of its samples, if it is mixed; else anything.
+    /// Per pixel, `groups` of them: the keys of its samples, if it is mixed; else anything. And then
+    /// for [`SIDE`] pixels more.
     mixed: Vec<[u32; GROUP]>,
     /// Groups that hold the samples of a pixel; 0 if there is only one.
     groups: usize,
+    #[cfg(feature = "std")]
+    level: Best,
+}
+
+/// The best instructions that the machine has.
+#[cfg(feature = "std")]
+#[derive(Debug, Clone, Copy)]
+struct Best(fearless_simd::Level);
+
+#[cfg(feature = "std")]
+impl Default for Best {
+    fn default() -> Self {
+        Self(fearless_simd::Level::new())
+    }
+}
+
+/// The colours of keys in a row, for [`Visibility::shade_pixels`].
+pub trait PixelColors {
+    /// The colour of a key in the pixel of a column. It may be asked for a key that was never drawn,
+    /// whose colour goes nowhere. To be inlined always.
+    fn at(&self, key: u32, x: usize) -> Premul;
 }
 
 /// What is seen in some pixels of a row.
@@ -64,9 +88,6 @@ const MIXED: u32 = u32::MAX;
 /// Samples that are written at once: what any machine's vectors hold.
 const GROUP: usize = 4;
 
-/// Mixed pixels that are encoded together.
-const BATCH: usize = 32;
-
 impl Visibility {
     /// The largest key.
     pub const MAX_KEY: u32 = MIXED - 1;
@@ -86,7 +107,7 @@ impl Visibility {
         self.samples = samples.clamp(1, 64) as usize;
         self.full = u64::MAX >> (64 - self.samples);
         self.groups = if self.samples == 1 { 0 } else { self.samples.div_ceil(GROUP) };
-        let len = self.width * self.height;
+        let len = self.width * self.height + SIDE;
         self.keys.clear();
         self.keys.resize(len, key.min(Self::MAX_KEY));
         if self.mixed.len() < len * self.groups {
@@ -100,8 +121,8 @@ impl Visibility {
     /// ```
     /// use scumble_framebuffer::Visibility;
     ///
-    /// assert_eq!(Visibility::max_bytes(64, 64, 1), 16 << 10);
-    /// assert_eq!(Visibility::max_bytes(64, 64, 16), (16 << 10) * 17);
+    /// assert_eq!(Visibility::max_bytes(64, 64, 1), (16 << 10) + 32);
+    /// assert_eq!(Visibility::max_bytes(64, 64, 16), ((16 << 10) + 32) * 17);
     /// ```
     #[must_use]
     pub fn max_bytes(width: u32, height: u32, samples: u32) -> u64 {
@@ -110,7 +131,7 @@ impl Visibility {
             1 => 1,
             n => 1 + n.next_multiple_of(GROUP),
         };
-        side(width) * side(height) * (each * size_of::<u32>()) as u64
+        (side(width) * side(height) + SIDE as u64) * (each * size_of::<u32>()) as u64
     }
 
     /// `key` hides what was seen in every sample of `w` × `h` pixels from (`x`, `y`) on.
@@ -165,10 +186,60 @@ impl Visibility {
         }
     }
 
+    /// `key` hides what was seen in every sample of those of the 8 × 8 pixels from (`x`, `y`) on that
+    /// are in `pixels`: bit 8·r + c is the pixel (x + c, y + r).
+    #[inline]
+    pub fn fill_pixels(&mut self, x: u32, y: u32, pixels: u64, key: u32) {
+        #[cfg(feature = "std")]
+        let level = self.level.0;
+        let Some((mut rows, columns)) = self.square(x, y) else { return };
+        let within = (0xff >> (SIDE - columns)) * 0x0101_0101_0101_0101;
+        let (pixels, key) = (pixels & within, key.min(Self::MAX_KEY));
+        #[cfg(feature = "std")]
+        rows.fill_by(level, pixels, key);
+        #[cfg(not(feature = "std"))]
+        rows.fill(pixels, key);
+    }
+
+    /// `key` hides what was seen in some samples of the 8 × 8 pixels from (`x`, `y`) on, four samples
+    /// to the pixel: bit 4·c + s of `samples[r]` is sample s of the pixel (x + c, y + r). In a tile
+    /// of another number of samples it does nothing.
+    #[inline]
+    pub fn cover_square(&mut self, x: u32, y: u32, samples: &[u32; 8], key: u32) {
+        if self.samples != GROUP {
+            return;
+        }
+        #[cfg(feature = "std")]
+        let level = self.level.0;
+        let Some((mut rows, columns)) = self.square(x, y) else { return };
+        let within = u32::MAX >> (GROUP * (SIDE - columns));
+        let (samples, key) = (samples.map(|row| row & within), key.min(Self::MAX_KEY));
+        #[cfg(feature = "std")]
+        rows.cover_by(level, &samples, key);
+        #[cfg(not(feature = "std"))]
+        rows.cover(&samples, key);
+    }
+
+    /// The tile from a pixel on, and how many of the eight columns from there are in it.
+    #[inline]
+    fn square(&mut self, x: u32, y: u32) -> Option<(Rows<'_>, usize)> {
+        let (x, y, stride) = (x as usize, y as usize, self.width);
+        if x >= stride || y >= self.height {
+            return None;
+        }
+        let start = y * stride + x;
+        let keys = &mut self.keys[start..];
+        let mixed = self.mixed.get_mut(start..).unwrap_or_default();
+        Some((Rows { keys, mixed, stride }, (stride - x).min(SIDE)))
+    }
+
     /// The row's keys, and where they begin; none if there is no such row.
     fn keys(&self, y: u32) -> (usize, &[u32]) {
-        let start = (y as usize).min(self.height) * self.width;
-        (start, &self.keys[start..(start + self.width).min(self.keys.len())])
+        if y as usize >= self.height {
+            return (0, &[]);
+        }
+        let start = y as usize * self.width;
+        (start, &self.keys[start..start + self.width])
     }
 
     /// The keys of the samples of a mixed pixel.
@@ -181,6 +252,15 @@ impl Visibility {
     ///
     /// The bytes are those of [`shade_row`](Self::shade_row) and [`encode_row`].
     pub fn encode_row(&self, y: u32, palette: &Palette, out: &mut [[u8; 4]]) {
+        #[cfg(feature = "std")]
+        fearless_simd::dispatch!(self.level.0, _simd => self.encode_row_by(y, palette, out));
+        #[cfg(not(feature = "std"))]
+        self.encode_row_by(y, palette, out);
+    }
+
+    // Inlined, so that it runs on the instructions of its caller.
+    #[inline(always)]
+    fn encode_row_by(&self, y: u32, palette: &Palette, out: &mut [[u8; 4]]) {
         let (start, keys) = self.keys(y);
         for (key, code) in keys.iter().zip(&mut *out) {
             *code = palette.code(*key);
@@ -189,35 +269,30 @@ impl Visibility {
             return;
         }
         for (first, (keys, out)) in (0..).step_by(64).zip(keys.chunks(64).zip(out.chunks_mut(64))) {
-            // As bits, since whether a pixel is mixed is nothing that a branch could guess.
-            let bits = (0..).zip(keys).map(|(i, &key)| u64::from(key == MIXED) << i);
-            let mut mixed = bits.fold(0, |all, bit| all | bit);
-            mixed &= u64::MAX >> (64 - out.len());
-            let mut colors = [Premul::TRANSPARENT; BATCH];
-            while mixed != 0 {
-                let (mut rest, mut count) = (mixed, 0);
-                for color in &mut colors {
-                    if rest != 0 {
-                        *color = self.mix(start + first + rest.trailing_zeros() as usize, palette);
-                        rest &= rest - 1;
-                        count += 1;
-                    }
-                }
-                let mut codes = [[0; 4]; BATCH];
-                encode_row(&colors[..count], palette.space(), &mut codes);
-                for code in &codes[..count] {
-                    out[mixed.trailing_zeros() as usize] = *code;
-                    mixed &= mixed - 1;
-                }
+            let mut mixed = mixed_bits(keys, out.len());
+            let mut colors = [Premul::TRANSPARENT; 64];
+            let (mut rest, mut count) = (mixed, 0);
+            while rest != 0 {
+                colors[count] = self.mix(start + first + rest.trailing_zeros() as usize, palette);
+                rest &= rest - 1;
+                count += 1;
+            }
+            let mut codes = [[0; 4]; 64];
+            palette.space().export_row(&colors[..count], &mut codes);
+            for code in &codes[..count] {
+                out[mixed.trailing_zeros() as usize] = *code;
+                mixed &= mixed - 1;
             }
         }
     }
 
+    #[inline(always)]
     fn mix(&self, i: usize, palette: &Palette) -> Premul {
         if self.groups == 1 && self.samples == GROUP {
-            // The most common number deserves a loop of its own length.
-            let keys = self.mixed[i];
-            return mean_of(GROUP, |s| palette.color(keys[s]));
+            // The most common number deserves a way of its own.
+            let [a, b, c, d] = self.mixed[i];
+            let color = [palette.color(a), palette.color(b), palette.color(c), palette.color(d)];
+            return mean4(color);
         }
         let keys = self.samples_of(i);
         mean_of(keys.len(), |s| palette.color(keys[s]))
@@ -256,6 +331,45 @@ impl Visibility {
         }
     }
 
+    /// [`shade_row`](Self::shade_row) for colours that are quick to find: they are asked for pixel by
+    /// pixel, and for each sample of a mixed one, so that nothing hangs on how long a stretch is.
+    #[inline]
+    pub fn shade_pixels(&self, y: u32, out: &mut [Premul], colors: &impl PixelColors) {
+        #[cfg(feature = "std")]
+        fearless_simd::dispatch!(self.level.0, _simd => self.shade_pixels_by(y, out, colors));
+        #[cfg(not(feature = "std"))]
+        self.shade_pixels_by(y, out, colors);
+    }
+
+    // Inlined, so that it runs on the instructions of its caller.
+    #[inline(always)]
+    fn shade_pixels_by(&self, y: u32, out: &mut [Premul], colors: &impl PixelColors) {
+        let (start, keys) = self.keys(y);
+        for (x, (&key, out)) in keys.iter().zip(&mut *out).enumerate() {
+            *out = colors.at(key, x);
+        }
+        if self.groups == 0 {
+            return;
+        }
+        for (first, (keys, out)) in (0..).step_by(64).zip(keys.chunks(64).zip(out.chunks_mut(64))) {
+            let mut mixed = mixed_bits(keys, out.len());
+            while mixed != 0 {
+                let place = mixed.trailing_zeros() as usize;
+                let x = first + place;
+                out[place] = if self.groups == 1 && self.samples == GROUP {
+                    let [a, b, c, d] = self.mixed[start + x];
+                    let color =
+                        [colors.at(a, x), colors.at(b, x), colors.at(c, x), colors.at(d, x)];
+                    mean4(color)
+                } else {
+                    let keys = self.samples_of(start + x);
+                    mean_of(keys.len(), |s| colors.at(keys[s], x))
+                };
+                mixed &= mixed - 1;
+            }
+        }
+    }
+
     /// What is seen in a row, from left to right; nothing if there is no such row.
     pub fn row(&self, y: u32) -> impl Iterator<Item = Seen<'_>> {
         let (start, row) = self.keys(y);
@@ -272,6 +386,14 @@ impl Visibility {
             Some(Seen::Whole { x: first, len, key })
         })
     }
+}
+
+/// Which of the first pixels are mixed: of at most 64, and at most `room`. As bits, since whether a
+/// pixel is mixed is nothing that a branch could guess.
+#[inline(always)]
+fn mixed_bits(keys: &[u32], room: usize) -> u64 {
+    let bits = (0..).zip(keys).map(|(i, &key)| u64::from(key == MIXED) << i);
+    bits.fold(0, |all, bit| all | bit) & u64::MAX >> (64 - room.min(64))
 }
 
 /// Writes a key all over a run. Runs are short: two writes that overlap beat a loop over what is
@@ -295,5 +417,6 @@ fn fill(run: &mut [u32], key: u32) {
     }
 }
 
+mod squares;
 #[cfg(test)]
 mod tests;

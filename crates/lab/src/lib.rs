@@ -19,8 +19,10 @@
 mod canvas;
 pub mod driver;
 pub mod exchange;
+pub mod gallery;
 pub mod map;
 mod math;
+pub mod peers;
 pub mod quality;
 mod scenes;
 mod svg;

@@ -95,7 +95,7 @@ impl WorkingSpace {
     #[inline(always)]
     pub fn export_row(self, colors: &[Premul], out: &mut [[u8; 4]]) {
         match self {
-            Self::Srgb => export_row_with(colors, out, export_srgb),
+            Self::Srgb => export_srgb_row(colors, out),
             Self::Linear => export_row_with(colors, out, export_linear),
         }
     }
@@ -121,6 +121,30 @@ fn export_srgb(color: Premul) -> [u8; 4] {
     let codes: [u8; 4] = core::array::from_fn(|i| unorm8(color.0[i] / divisors[i]));
     let keep = u8::from(codes[3] != 0).wrapping_neg();
     codes.map(|code| code & keep)
+}
+
+/// Pixels that are looked at together: if all are opaque, nothing needs to be divided.
+const TOGETHER: usize = 16;
+
+/// [`export_srgb`] of a row.
+#[inline(always)]
+fn export_srgb_row(colors: &[Premul], out: &mut [[u8; 4]]) {
+    let len = colors.len().min(out.len());
+    let (colors, rest) = colors[..len].as_chunks::<TOGETHER>();
+    let (codes, rest_codes) = out[..len].as_chunks_mut::<TOGETHER>();
+    for (colors, codes) in colors.iter().zip(codes) {
+        let opaque = colors.iter().fold(true, |all, color| all & (color.alpha() == 1.0));
+        if opaque {
+            // As one array of numbers, which fills vectors.
+            let values = colors.map(|color| color.0);
+            for (code, &value) in codes.as_flattened_mut().iter_mut().zip(values.as_flattened()) {
+                *code = unorm8(value);
+            }
+        } else {
+            export_row_with(colors, codes, export_srgb);
+        }
+    }
+    export_row_with(rest, rest_codes, export_srgb);
 }
 
 /// [`WorkingSpace::export`] of linear light.

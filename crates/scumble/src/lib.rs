@@ -19,8 +19,10 @@ mod render;
 mod schedule;
 mod settings;
 mod sink;
+mod strips;
 mod textures;
 mod tile;
+pub mod warp;
 
 pub use control::{Control, Progress};
 pub use error::RenderError;

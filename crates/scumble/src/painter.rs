@@ -39,6 +39,20 @@ impl Sink for Stamp<'_> {
         let (x, y) = local(self.origin, x, y);
         self.tile.cover(x, y, mask.0, self.key);
     }
+
+    const SQUARES: bool = true;
+
+    #[inline]
+    fn whole(&mut self, x: i32, y: i32, pixels: u64) {
+        let (x, y) = local(self.origin, x, y);
+        self.tile.fill_pixels(x, y, pixels, self.key);
+    }
+
+    #[inline]
+    fn parts(&mut self, x: i32, y: i32, rows: &[u32; 8]) {
+        let (x, y) = local(self.origin, x, y);
+        self.tile.cover_square(x, y, rows, self.key);
+    }
 }
 
 /// Colours what a primitive covers.
@@ -171,6 +185,7 @@ impl AreaSink for Painter<'_> {
     }
 }
 
+#[inline(always)]
 pub(crate) fn centre(x: i32, y: i32) -> DVec2 {
     DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)
 }

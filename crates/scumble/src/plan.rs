@@ -46,6 +46,8 @@ pub(crate) struct Draw {
 pub(crate) enum Effect {
     /// One opaque colour is seen there.
     Flat,
+    /// An opaque colour is seen there that changes evenly.
+    Ramps,
     /// The primitive is seen there, and nothing through it.
     Hides,
     /// Anything else.
@@ -175,6 +177,7 @@ impl Planner<'_> {
             _ if self.settings.antialias == Antialias::Area => Effect::Blends,
             Paint::Solid(_) => Effect::Flat,
             _ if self.settings.per_sample() => Effect::Blends,
+            Paint::Gouraud(ramp) if ramp.plane().is_some() => Effect::Ramps,
             _ => Effect::Hides,
         };
         self.plan.bounds.push(bounds);

@@ -78,7 +78,7 @@ fn draw<S: Sink>(
     let texture_bytes = textures.memory();
     let plan = plan::build(scene, settings, &textures.surfaces);
     let grid = TileGrid::new(area, settings.tile_size);
-    check_memory(&plan, settings, &grid, pool.threads(), texture_bytes)?;
+    let spare = check_memory(&plan, settings, &grid, pool.threads(), texture_bytes)?;
     let stats = Stats {
         width: area.width(),
         height: area.height(),
@@ -86,7 +86,7 @@ fn draw<S: Sink>(
         texture_bytes,
         threads: pool.threads(),
     };
-    let job = Job { plan: &plan, settings, background: background(scene, settings) };
+    let job = Job { plan: &plan, settings, background: background(scene, settings), spare };
     let bins = TileBins::new(grid, &plan.bounds);
     sink.start(stats.width, stats.height).map_err(RenderError::Sink)?;
     schedule::run(&job, grid, bins, pool, sink, control)?;
@@ -138,14 +138,15 @@ pub(crate) fn check_limit<E>(needed: u64, settings: &Settings) -> Result<(), Ren
     if needed > limit { Err(RenderError::Memory { needed, limit }) } else { Ok(()) }
 }
 
-/// The memory of the whole run, as far as it can be known before the first tile.
+/// The memory of the whole run, as far as it can be known before the first tile, must be within the
+/// limit. Tells what is left of that.
 fn check_memory<E>(
     plan: &Plan<'_>,
     settings: &Settings,
     grid: &TileGrid,
     threads: usize,
     texture_bytes: usize,
-) -> Result<(), RenderError<E>> {
+) -> Result<u64, RenderError<E>> {
     let (side, samples) = (settings.tile_size, settings.samples());
     let seen = Visibility::max_bytes(side, side, samples);
     let tile = seen + Tile::max_bytes(side, side, samples);
@@ -154,5 +155,7 @@ fn check_memory<E>(
     let rows = schedule::buffered_rows(grid, threads) as u64 * u64::from(grid.area().width()) * 4;
     let draws = (size_of_val(&plan.draws[..]) + size_of_val(&plan.bounds[..])) as u64;
     let all = [tiles, rows, draws, plan.outline_bytes, texture_bytes as u64];
-    check_limit(all.into_iter().fold(0, u64::saturating_add), settings)
+    let needed = all.into_iter().fold(0, u64::saturating_add);
+    check_limit(needed, settings)?;
+    Ok(settings.max_memory - needed)
 }

@@ -1,9 +1,11 @@
 //! Which tile when, on which thread, and the way of the rows to the sink.
 
+use crate::strips::{self, Wanted};
 use crate::tile::{Job, Workspace};
-use crate::{Control, RenderError, Sink};
+use crate::{Antialias, Control, RenderError, Sink};
 use scumble_geometry::{IntRect, TileBins, TileGrid};
 use std::ops::Range;
+use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
 
 /// Tiles in flight for each thread: enough that a heavy tile does not leave the others idle.
@@ -63,7 +65,7 @@ impl Pool {
         }
     }
 
-    fn for_each<T: Send>(&self, items: Vec<T>, f: impl Fn(T) + Sync + Send) {
+    pub(crate) fn for_each<T: Send>(&self, items: Vec<T>, f: impl Fn(T) + Sync + Send) {
         match self {
             Self::Serial => items.into_iter().for_each(f),
             #[cfg(feature = "parallel")]
@@ -85,6 +87,44 @@ pub(crate) fn buffered_rows(grid: &TileGrid, threads: usize) -> usize {
     2 * (bands_per_group(grid, threads) * grid.side() as usize).min(grid.area().height() as usize)
 }
 
+/// Why rows stopped coming.
+pub(crate) enum Stopped<E> {
+    /// The caller's flag was set.
+    Cancelled,
+    /// The sink failed.
+    Sink(E),
+}
+
+/// Renders groups of rows, one after the other, and hands each to the sink while the next is
+/// rendered. `render` says which rows of `height` the group has that it put into the buffer.
+pub(crate) fn pump<P: Send + Sync, S: Sink<P>>(
+    groups: usize,
+    height: u32,
+    (pool, control): (&Pool, &Control<'_>),
+    sink: &mut S,
+    mut render: impl FnMut(usize, &mut Vec<P>) -> Range<u32> + Send,
+) -> Result<(), Stopped<S::Error>> {
+    let (mut ready, mut next) = (Vec::new(), Vec::new());
+    let mut ready_rows = 0..0;
+    // One round more than there are groups: the last only hands over.
+    for group in 0..=groups {
+        let (taken, rows) = pool.join(
+            || if ready_rows.is_empty() { Ok(()) } else { sink.rows(ready_rows.start, &ready) },
+            || if group < groups { render(group, &mut next) } else { 0..0 },
+        );
+        taken.map_err(Stopped::Sink)?;
+        if control.is_cancelled() {
+            return Err(Stopped::Cancelled);
+        }
+        if !ready_rows.is_empty() {
+            control.report(ready_rows.end, height);
+        }
+        std::mem::swap(&mut ready, &mut next);
+        ready_rows = rows;
+    }
+    Ok(())
+}
+
 /// Renders all bands and hands them to the sink, which takes one group of bands while the next
 /// is rendered.
 pub(crate) fn run<S: Sink>(
@@ -98,28 +138,18 @@ pub(crate) fn run<S: Sink>(
     let step = bands_per_group(&grid, pool.threads());
     let mut groups =
         Groups { job, grid, bins, pool, control, lists: Vec::new(), idle: Mutex::default() };
-    let (mut ready, mut next) = (Vec::new(), Vec::new());
-    let mut ready_rows = 0..0;
-    // One round more than there are groups: the last only hands over.
-    for group in 0..=grid.bands().div_ceil(step) {
-        let band = |group: usize| (group * step).min(grid.bands());
-        let bands = band(group)..band(group + 1);
+    let count = grid.bands().div_ceil(step);
+    let render = |group: usize, buffer: &mut Vec<[u8; 4]>| {
+        let bands = group * step..((group + 1) * step).min(grid.bands());
         let rows = groups.rows(&bands);
-        let (taken, ()) = pool.join(
-            || if ready_rows.is_empty() { Ok(()) } else { sink.rows(ready_rows.start, &ready) },
-            || groups.render(bands, &mut next),
-        );
-        taken.map_err(RenderError::Sink)?;
-        if control.is_cancelled() {
-            return Err(RenderError::Cancelled);
-        }
-        if !ready_rows.is_empty() {
-            control.report(ready_rows.end, grid.area().height());
-        }
-        std::mem::swap(&mut ready, &mut next);
-        ready_rows = rows;
-    }
-    Ok(())
+        groups.render(bands, buffer);
+        rows
+    };
+    let outcome = pump(count, grid.area().height(), (pool, control), sink, render);
+    outcome.map_err(|stopped| match stopped {
+        Stopped::Cancelled => RenderError::Cancelled,
+        Stopped::Sink(error) => RenderError::Sink(error),
+    })
 }
 
 struct Groups<'a> {
@@ -138,6 +168,7 @@ struct Groups<'a> {
 struct TileTask<'a> {
     rect: IntRect,
     list: &'a [u32],
+    strips: &'a [Wanted<'a>],
     rows: Vec<&'a mut [[u8; 4]]>,
 }
 
@@ -153,14 +184,19 @@ impl Groups<'_> {
         let width = grid.area().width() as usize;
         buffer.resize(self.rows(&bands).len() * width, [0; 4]);
         self.lists.resize_with(bands.len() * columns, Vec::new);
-        let mut tasks = Vec::with_capacity(self.lists.len());
-        let strips = buffer.chunks_mut(width * grid.side() as usize);
-        for ((band, strip), lists) in bands.zip(strips).zip(self.lists.chunks_mut(columns)) {
+        for (band, lists) in bands.clone().zip(self.lists.chunks_mut(columns)) {
             self.bins.fill(band, lists);
+        }
+        let found = self.strips(bands.clone());
+        let mut tasks = Vec::with_capacity(self.lists.len());
+        let pieces = buffer.chunks_mut(width * grid.side() as usize);
+        let lists = self.lists.chunks(columns).zip(&found);
+        for ((band, strip), (lists, strips)) in bands.zip(pieces).zip(lists) {
             let first = tasks.len();
             tasks.extend(lists.iter().enumerate().map(|(column, list)| TileTask {
                 rect: grid.tile(column, band),
                 list,
+                strips,
                 rows: Vec::with_capacity(grid.side() as usize),
             }));
             for row in strip.chunks_mut(width) {
@@ -171,16 +207,39 @@ impl Groups<'_> {
                 }
             }
         }
-        let (job, control, idle) = (self.job, self.control, &self.idle);
+        let (job, control) = (self.job, self.control);
         self.pool.for_each(tasks, |mut task| {
-            if control.is_cancelled() {
-                return;
+            if !control.is_cancelled() {
+                let lists = (task.list, task.strips);
+                self.with_workspace(|work| job.tile(work, task.rect, lists, &mut task.rows));
             }
-            // A poisoned lock means that another tile panicked; its workspace is gone, not ours.
-            let lock = || idle.lock().unwrap_or_else(PoisonError::into_inner);
-            let mut work = lock().pop().unwrap_or_default();
-            job.tile(&mut work, task.rect, task.list, &mut task.rows);
-            lock().push(work);
         });
+    }
+
+    /// What is found once for each of the bands.
+    fn strips(&self, bands: Range<usize>) -> Vec<Vec<Wanted<'_>>> {
+        let (job, grid) = (self.job, &self.grid);
+        let mut found: Vec<Vec<Wanted<'_>>> = Vec::with_capacity(bands.len());
+        if job.settings.antialias != Antialias::Area {
+            found.resize_with(bands.len(), Vec::new);
+            return found;
+        }
+        let lists = self.lists.chunks(grid.columns());
+        found.extend(bands.zip(lists).map(|(band, l)| strips::wanted(job.plan, grid, band, l)));
+        let spare = AtomicU64::new(job.spare.min(strips::MAX_BYTES));
+        self.pool.for_each(found.iter_mut().flatten().collect(), |wanted| {
+            if !self.control.is_cancelled() {
+                self.with_workspace(|work| wanted.find(grid, &spare, &mut work.scratch));
+            }
+        });
+        found
+    }
+
+    fn with_workspace(&self, f: impl FnOnce(&mut Workspace)) {
+        // A poisoned lock means that another tile panicked; its workspace is gone, not ours.
+        let lock = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut work = lock().pop().unwrap_or_default();
+        f(&mut work);
+        lock().push(work);
     }
 }

@@ -5,7 +5,10 @@ use std::convert::Infallible;
 ///
 /// The calls come in order, from one thread at a time: `start` once, `rows` from the top down
 /// until all are there, `finish` once. After an error nothing more is called.
-pub trait Sink: Send {
+///
+/// `P` is a pixel: RGBA with straight alpha in eight bits, or whatever else the work that feeds it
+/// offers ([`warp::OutputPixel`](crate::warp::OutputPixel)).
+pub trait Sink<P = [u8; 4]>: Send {
     /// What can go wrong.
     type Error: Send;
 
@@ -15,11 +18,11 @@ pub trait Sink: Send {
     /// Whatever keeps the sink from taking such a picture; it ends the run.
     fn start(&mut self, width: u32, height: u32) -> Result<(), Self::Error>;
 
-    /// Whole rows, the first of them row `y`: sRGB-encoded, straight alpha, eight bits each.
+    /// Whole rows, the first of them row `y`.
     ///
     /// # Errors
     /// Whatever keeps the sink from taking the rows; it ends the run.
-    fn rows(&mut self, y: u32, rows: &[[u8; 4]]) -> Result<(), Self::Error>;
+    fn rows(&mut self, y: u32, rows: &[P]) -> Result<(), Self::Error>;
 
     /// All rows have been handed over.
     ///
@@ -29,28 +32,34 @@ pub trait Sink: Send {
 }
 
 /// A sink that keeps the picture in memory.
-#[derive(Debug, Default)]
-pub struct ImageSink {
+#[derive(Debug)]
+pub struct ImageSink<P = [u8; 4]> {
     width: usize,
-    pixels: Vec<[u8; 4]>,
+    pixels: Vec<P>,
 }
 
-impl ImageSink {
+impl<P> Default for ImageSink<P> {
+    fn default() -> Self {
+        Self { width: 0, pixels: Vec::new() }
+    }
+}
+
+impl<P> ImageSink<P> {
     /// An empty sink.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The picture: sRGB-encoded, straight alpha. Empty if nothing was rendered.
+    /// The picture. Empty if nothing was rendered.
     #[must_use]
-    pub fn into_image(self) -> Image<[u8; 4]> {
+    pub fn into_image(self) -> Image<P> {
         let height = self.pixels.len().checked_div(self.width).unwrap_or(0);
         Image::from_vec(self.width, height, self.pixels).unwrap_or_default()
     }
 }
 
-impl Sink for ImageSink {
+impl<P: Copy + Send> Sink<P> for ImageSink<P> {
     type Error = Infallible;
 
     fn start(&mut self, width: u32, height: u32) -> Result<(), Infallible> {
@@ -60,7 +69,7 @@ impl Sink for ImageSink {
         Ok(())
     }
 
-    fn rows(&mut self, _y: u32, rows: &[[u8; 4]]) -> Result<(), Infallible> {
+    fn rows(&mut self, _y: u32, rows: &[P]) -> Result<(), Infallible> {
         self.pixels.extend_from_slice(rows);
         Ok(())
     }

@@ -31,6 +31,8 @@ pub(crate) struct Walks {
     pub(crate) how: [i32; ABREAST],
     pub(crate) level: [u32; ABREAST],
     pub(crate) stride: [i32; ABREAST],
+    /// [`Level::base`].
+    pub(crate) base: [i32; ABREAST],
     pub(crate) mask_x: [i32; ABREAST],
     pub(crate) mask_y: [i32; ABREAST],
     pub(crate) x0: [i32; ABREAST],
@@ -246,7 +248,8 @@ impl<S: Simd> Weigher<S> {
         // After the masks, every sum here is an index of a texel, and fits 31 bits.
         let y = (j.to_int::<i32x16<S>>() + wholes(simd, &w.y0)) & wholes(simd, &w.mask_y);
         let x = (before.to_int::<i32x16<S>>() + self.x1 + shift) & wholes(simd, &w.mask_x);
-        live.select(y * wholes(simd, &w.stride) + x, i32x16::splat(simd, 0))
+        let at = y * wholes(simd, &w.stride) + x - wholes(simd, &w.base);
+        live.select(at, i32x16::splat(simd, 0))
     }
 
     /// The weights, in the low halves of the lanes, of the texels that lie so far from the middle of

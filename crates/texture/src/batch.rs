@@ -151,6 +151,7 @@ impl Chosen {
         for (i, rare) in rare.into_iter().enumerate() {
             let level = level(i);
             walks.stride[i] = level.stride as i32;
+            walks.base[i] = level.base;
             [walks.mask_x[i], walks.mask_y[i]] = level.mask;
             walks.level[i] = (self.pick[i].level + on).min(last) as u32;
             if !wanted(i) {

@@ -1,6 +1,7 @@
 //! From one level to the next: separable, exact for every size.
 
 use crate::math::{bessel_i0, sinc};
+use crate::pyramid::plan::Span;
 use crate::{Decimation, Wrap};
 use alloc::{vec, vec::Vec};
 
@@ -10,7 +11,7 @@ const KAISER_BETA: f64 = 4.0;
 /// The filter along one axis: for every output texel, which input texels with which weights.
 ///
 /// Even sizes need one set of weights; others one for each output texel.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Taps {
     /// Output texels.
     pub(crate) outputs: usize,
@@ -22,7 +23,7 @@ pub(crate) struct Taps {
     fold: Wrap,
     /// Input texels.
     inputs: usize,
-    /// Weight of every tap of every output.
+    /// Weight of every tap of every output; of even sizes, of the first.
     weights: Vec<f32>,
 }
 
@@ -59,7 +60,6 @@ impl Taps {
             firsts.push(first);
             if even && i > 0 {
                 // An even size has one phase.
-                weights.extend_from_within(..count);
                 continue;
             }
             weights.extend((first..first + count as i32).map(|j| match filter {
@@ -67,7 +67,7 @@ impl Taps {
                 Decimation::Box => share * overlap(j as f64, centre - reach, centre + reach),
             }));
         }
-        if filter == Decimation::Kaiser {
+        if filter == Decimation::Kaiser && !even {
             balance(&mut weights, &firsts, count, ratio);
         }
         let weights = weights.iter().map(|w| *w as f32).collect();
@@ -77,7 +77,25 @@ impl Taps {
     /// The weights of output `i`.
     #[inline(always)]
     pub(crate) fn weights(&self, i: usize) -> &[f32] {
+        let i = if self.is_even() { 0 } else { i };
         &self.weights[i * self.count..(i + 1) * self.count]
+    }
+
+    /// The weights of output `i`, which may lie outside.
+    #[inline(always)]
+    pub(crate) fn weights_of(&self, i: i32) -> &[f32] {
+        self.weights(i.rem_euclid(self.outputs as i32) as usize)
+    }
+
+    /// The inputs of some outputs as rows that come: after mirroring, but before repeating.
+    #[cfg(feature = "parallel")]
+    pub(crate) fn rows_of(&self, [first, end]: [i32; 2]) -> [i32; 2] {
+        if self.mirrors() {
+            let Span { start, end } =
+                self.inputs_of(Span { start: first as usize, end: end as usize });
+            return [start as i32, end as i32];
+        }
+        [self.first(first), self.first(end - 1) + self.count as i32]
     }
 
     /// Whether all outputs have the weights of the first, each two texels on.
@@ -93,10 +111,48 @@ impl Taps {
         self.fold.resolve(i, self.inputs).unwrap_or(0)
     }
 
-    /// How many texels the taps reach over the two ends.
-    pub(crate) fn margins(&self) -> [usize; 2] {
-        let (first, last) = (self.firsts[0], self.firsts[self.outputs - 1] + self.count as i32);
-        [(-first).max(0) as usize, (last - self.inputs as i32).max(0) as usize]
+    /// Where the taps of some outputs begin and end, before wrapping.
+    pub(crate) fn reach(&self, outputs: Span) -> [i32; 2] {
+        [self.firsts[outputs.start], self.firsts[outputs.end - 1] + self.count as i32]
+    }
+
+    /// Whether the taps of some outputs reach over an end.
+    pub(crate) fn crosses(&self, outputs: Span) -> bool {
+        let [first, end] = self.reach(outputs);
+        first < 0 || end > self.inputs as i32
+    }
+
+    /// The inputs of some outputs, after wrapping.
+    pub(crate) fn inputs_of(&self, outputs: Span) -> Span {
+        let [first, end] = self.reach(outputs);
+        let n = self.inputs as i32;
+        let all = Span::all(self.inputs);
+        if !self.crosses(outputs) {
+            return Span { start: first as usize, end: end as usize };
+        }
+        if self.fold == Wrap::Repeat || end - first >= n {
+            return all;
+        }
+        // What lies over an end stands as far inside it.
+        let (mut low, mut high) = (first.max(0), end.min(n));
+        if first < 0 {
+            (low, high) = (0, high.max(-first));
+        }
+        if end > n {
+            (low, high) = (low.min(2 * n - end), n);
+        }
+        Span { start: low.clamp(0, n) as usize, end: high.clamp(0, n) as usize }
+    }
+
+    /// Whether what lies over an end stands as far inside it.
+    pub(crate) fn mirrors(&self) -> bool {
+        self.fold == Wrap::Mirror
+    }
+
+    /// The first input of output `i`, which may lie outside like its inputs.
+    pub(crate) fn first(&self, i: i32) -> i32 {
+        let (n, outputs) = (self.inputs as i32, self.outputs as i32);
+        self.firsts[i.rem_euclid(outputs) as usize] + n * i.div_euclid(outputs)
     }
 }
 
@@ -193,7 +249,7 @@ mod tests {
                     let share = taps.outputs as f64 / n as f64;
                     let worst = totals.iter().map(|t| (t - share).abs()).fold(0.0, f64::max);
                     assert!(worst < 1e-6, "{n} {filter:?} {wrap:?}: {worst}");
-                    for w in taps.weights.chunks(taps.count) {
+                    for w in (0..taps.outputs).map(|i| taps.weights(i)) {
                         let sum: f64 = w.iter().map(|w| f64::from(*w)).sum();
                         assert!((sum - 1.0).abs() < 1e-6, "{n} {filter:?} {wrap:?} {sum}");
                     }

@@ -1,9 +1,8 @@
 //! Images in the formats that others keep them in.
 
-use crate::pyramid::Rows;
-use crate::texel::{ONE, whole};
+use crate::decode::half;
 use core::marker::PhantomData;
-use scumble_pixel::{ImageView, Premul, Straight, WorkingSpace, srgb};
+use scumble_pixel::ImageView;
 
 /// The type of [`Texels`] whose colour stands apart from the alpha.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,84 +28,219 @@ impl Alpha for PremultipliedAlpha {
 }
 
 /// A channel as it is stored: `u8` and `u16` are parts of 255 and 65535, `f32` is itself.
-pub trait Channel: sealed::Sealed + Copy + Sync {
+pub trait Channel: sealed::Sealed + Copy + Sync + Sized {
     #[doc(hidden)]
     const LIGHT: bool;
+    /// How many different ones there are, if that is a number for a table, else 0.
+    #[doc(hidden)]
+    const CODES: usize;
     #[doc(hidden)]
     fn value(self) -> f32;
+    /// Its place in such a table.
+    #[doc(hidden)]
+    fn code(self) -> usize;
+    /// The one at a place.
+    #[doc(hidden)]
+    fn of_code(code: usize) -> Self;
+    /// Bytes as they are; of others none.
+    #[doc(hidden)]
+    fn bytes(channels: &[Self]) -> &[u8];
 }
 
 impl Channel for u8 {
     const LIGHT: bool = false;
+    const CODES: usize = 256;
 
     #[inline(always)]
     fn value(self) -> f32 {
         f32::from(self) / 255.0
     }
+
+    #[inline(always)]
+    fn code(self) -> usize {
+        usize::from(self)
+    }
+
+    fn of_code(code: usize) -> Self {
+        code as u8
+    }
+
+    #[inline(always)]
+    fn bytes(channels: &[Self]) -> &[u8] {
+        channels
+    }
 }
 
 impl Channel for u16 {
     const LIGHT: bool = false;
+    const CODES: usize = 65536;
 
     #[inline(always)]
     fn value(self) -> f32 {
         f32::from(self) / 65535.0
     }
+
+    #[inline(always)]
+    fn code(self) -> usize {
+        usize::from(self)
+    }
+
+    fn of_code(code: usize) -> Self {
+        code as u16
+    }
+
+    fn bytes(_: &[Self]) -> &[u8] {
+        &[]
+    }
 }
 
 impl Channel for f32 {
     const LIGHT: bool = true;
+    const CODES: usize = 0;
 
     #[inline(always)]
     fn value(self) -> f32 {
         self
     }
+
+    #[inline(always)]
+    fn code(self) -> usize {
+        0
+    }
+
+    fn of_code(_: usize) -> Self {
+        0.0
+    }
+
+    fn bytes(_: &[Self]) -> &[u8] {
+        &[]
+    }
 }
 
 /// A pixel of one to four channels: grey; grey and alpha; red, green, blue; and with alpha.
-pub trait Channels: sealed::Sealed + Copy + Sync {
+pub trait Channels: sealed::Sealed + Copy + Sync + Sized {
     /// The type of each.
     type Channel: Channel;
+    /// Whether the last of them is alpha.
     #[doc(hidden)]
-    fn spread(self, value: impl Fn(Self::Channel) -> f32) -> [f32; 4];
+    const ALPHA: bool;
+    #[doc(hidden)]
+    fn spread(
+        self,
+        color: impl Fn(Self::Channel) -> f32,
+        alpha: impl Fn(Self::Channel) -> f32,
+    ) -> [f32; 4];
+    /// Red, green and blue.
+    #[doc(hidden)]
+    fn color(self) -> [Self::Channel; 3];
+    /// The last channel.
+    #[doc(hidden)]
+    fn alpha(self) -> Self::Channel;
+    #[doc(hidden)]
+    fn flat(pixels: &[Self]) -> &[Self::Channel];
 }
 
 impl<C: Channel> Channels for [C; 1] {
     type Channel = C;
+    const ALPHA: bool = false;
 
     #[inline(always)]
-    fn spread(self, value: impl Fn(C) -> f32) -> [f32; 4] {
-        let [y] = self.map(value);
+    fn spread(self, color: impl Fn(C) -> f32, _: impl Fn(C) -> f32) -> [f32; 4] {
+        let y = color(self[0]);
         [y, y, y, 1.0]
+    }
+
+    #[inline(always)]
+    fn color(self) -> [C; 3] {
+        [self[0]; 3]
+    }
+
+    #[inline(always)]
+    fn alpha(self) -> C {
+        self[0]
+    }
+
+    #[inline(always)]
+    fn flat(pixels: &[Self]) -> &[C] {
+        pixels.as_flattened()
     }
 }
 
 impl<C: Channel> Channels for [C; 2] {
     type Channel = C;
+    const ALPHA: bool = true;
 
     #[inline(always)]
-    fn spread(self, value: impl Fn(C) -> f32) -> [f32; 4] {
-        let [y, a] = self.map(value);
-        [y, y, y, a]
+    fn spread(self, color: impl Fn(C) -> f32, alpha: impl Fn(C) -> f32) -> [f32; 4] {
+        let y = color(self[0]);
+        [y, y, y, alpha(self[1])]
+    }
+
+    #[inline(always)]
+    fn color(self) -> [C; 3] {
+        [self[0]; 3]
+    }
+
+    #[inline(always)]
+    fn alpha(self) -> C {
+        self[1]
+    }
+
+    #[inline(always)]
+    fn flat(pixels: &[Self]) -> &[C] {
+        pixels.as_flattened()
     }
 }
 
 impl<C: Channel> Channels for [C; 3] {
     type Channel = C;
+    const ALPHA: bool = false;
 
     #[inline(always)]
-    fn spread(self, value: impl Fn(C) -> f32) -> [f32; 4] {
-        let [r, g, b] = self.map(value);
+    fn spread(self, color: impl Fn(C) -> f32, _: impl Fn(C) -> f32) -> [f32; 4] {
+        let [r, g, b] = self.map(color);
         [r, g, b, 1.0]
+    }
+
+    #[inline(always)]
+    fn color(self) -> [C; 3] {
+        [self[0], self[1], self[2]]
+    }
+
+    #[inline(always)]
+    fn alpha(self) -> C {
+        self[2]
+    }
+
+    #[inline(always)]
+    fn flat(pixels: &[Self]) -> &[C] {
+        pixels.as_flattened()
     }
 }
 
 impl<C: Channel> Channels for [C; 4] {
     type Channel = C;
+    const ALPHA: bool = true;
 
     #[inline(always)]
-    fn spread(self, value: impl Fn(C) -> f32) -> [f32; 4] {
-        self.map(value)
+    fn spread(self, color: impl Fn(C) -> f32, alpha: impl Fn(C) -> f32) -> [f32; 4] {
+        let [r, g, b, a] = self;
+        [color(r), color(g), color(b), alpha(a)]
+    }
+
+    #[inline(always)]
+    fn color(self) -> [C; 3] {
+        [self[0], self[1], self[2]]
+    }
+
+    #[inline(always)]
+    fn alpha(self) -> C {
+        self[3]
+    }
+
+    #[inline(always)]
+    fn flat(pixels: &[Self]) -> &[C] {
+        pixels.as_flattened()
     }
 }
 
@@ -120,12 +254,78 @@ mod sealed {
     impl<C: Sealed, const N: usize> Sealed for [C; N] {}
 }
 
+/// What the numbers of an image mean: for a [`Texels`] or a [`TextureBuilder`](crate::TextureBuilder).
+///
+/// Whole numbers are taken for sRGB-encoded, floats for linear light, unless
+/// [`TexelFormat::encoded`] or [`TexelFormat::in_light`] says otherwise. Alpha is never encoded.
+#[derive(Debug)]
+pub struct TexelFormat<P, A> {
+    pub(crate) light: bool,
+    pub(crate) halves: bool,
+    pixel: PhantomData<fn() -> (P, A)>,
+}
+
+impl<P, A> Clone for TexelFormat<P, A> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P, A> Copy for TexelFormat<P, A> {}
+
+impl<P: Channels> TexelFormat<P, StraightAlpha> {
+    /// Colour apart from alpha, or no alpha at all.
+    #[must_use]
+    pub fn straight() -> Self {
+        Self { light: P::Channel::LIGHT, halves: false, pixel: PhantomData }
+    }
+}
+
+impl<P: Channels> TexelFormat<P, PremultipliedAlpha> {
+    /// Colour multiplied by alpha.
+    #[must_use]
+    pub fn premultiplied() -> Self {
+        Self { light: P::Channel::LIGHT, halves: false, pixel: PhantomData }
+    }
+}
+
+impl<P: Channels, A: Alpha> TexelFormat<P, A> {
+    /// The numbers are sRGB-encoded.
+    #[must_use]
+    pub fn encoded(self) -> Self {
+        Self { light: false, ..self }
+    }
+
+    /// The numbers are proportional to light.
+    #[must_use]
+    pub fn in_light(self) -> Self {
+        Self { light: true, ..self }
+    }
+
+    pub(crate) fn is_of_bytes(&self) -> bool {
+        P::Channel::CODES == 256
+    }
+
+    /// Whether no colour can be negative or above its alpha.
+    pub(crate) fn is_bounded(&self) -> bool {
+        P::Channel::CODES > 0 && !self.halves
+    }
+}
+
+impl<P: Channels<Channel = u16>, A: Alpha> TexelFormat<P, A> {
+    /// The numbers are the bits of half floats (IEEE 754 binary16), in linear light.
+    #[must_use]
+    pub fn half_floats(self) -> Self {
+        Self { halves: true, light: true, ..self }
+    }
+}
+
 /// A borrowed image and what its numbers mean, to make a [`Texture`](crate::Texture) of.
 ///
 /// The view may be of foreign memory and have a stride. Whole numbers are taken for sRGB-encoded,
 /// floats for linear light, unless [`Texels::encoded`] or [`Texels::in_light`] says otherwise. Alpha is
-/// never encoded. Numbers outside 0…1 are brought back to it, and a NaN is 0: a texture's samples lie
-/// in 0…1, so what is brighter is not kept.
+/// never encoded, and is brought to 0…1. Colours are kept as they are, whatever their brightness, if
+/// they are stored as floats ([`Storage`](crate::Storage)), else brought to 0…1; a NaN is 0.
 ///
 /// ```
 /// use scumble_pixel::ImageView;
@@ -140,10 +340,8 @@ mod sealed {
 /// ```
 #[derive(Debug)]
 pub struct Texels<'a, P, A> {
-    view: ImageView<'a, P>,
-    light: bool,
-    halves: bool,
-    alpha: PhantomData<A>,
+    pub(crate) view: ImageView<'a, P>,
+    pub(crate) format: TexelFormat<P, A>,
 }
 
 impl<P, A> Clone for Texels<'_, P, A> {
@@ -158,7 +356,7 @@ impl<'a, P: Channels> Texels<'a, P, StraightAlpha> {
     /// Colour apart from alpha, or no alpha at all.
     #[must_use]
     pub fn straight(view: ImageView<'a, P>) -> Self {
-        Self { view, light: P::Channel::LIGHT, halves: false, alpha: PhantomData }
+        Self { view, format: TexelFormat::straight() }
     }
 }
 
@@ -166,7 +364,7 @@ impl<'a, P: Channels> Texels<'a, P, PremultipliedAlpha> {
     /// Colour multiplied by alpha.
     #[must_use]
     pub fn premultiplied(view: ImageView<'a, P>) -> Self {
-        Self { view, light: P::Channel::LIGHT, halves: false, alpha: PhantomData }
+        Self { view, format: TexelFormat::premultiplied() }
     }
 }
 
@@ -174,45 +372,27 @@ impl<P: Channels, A: Alpha> Texels<'_, P, A> {
     /// The numbers are sRGB-encoded.
     #[must_use]
     pub fn encoded(self) -> Self {
-        Self { light: false, ..self }
+        Self { format: self.format.encoded(), ..self }
     }
 
     /// The numbers are proportional to light.
     #[must_use]
     pub fn in_light(self) -> Self {
-        Self { light: true, ..self }
+        Self { format: self.format.in_light(), ..self }
     }
 
-    pub(crate) fn size(&self) -> [usize; 2] {
+    /// Columns and rows.
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
         [self.view.width(), self.view.height()]
     }
 
-    /// A pixel in a working space.
-    #[inline(always)]
-    fn import(&self, pixel: P, space: WorkingSpace) -> Premul {
-        let value = |c: P::Channel| {
-            let v = c.value();
-            let v = if self.halves { half(v) } else { v };
-            // Written so that a NaN is 0.
-            if v > 0.0 { v.min(1.0) } else { 0.0 }
-        };
-        let color = pixel.spread(value);
-        let curve: fn(f32) -> f32 = match (self.light, space) {
-            (false, WorkingSpace::Linear) => srgb::decode,
-            (true, WorkingSpace::Srgb) => srgb::encode,
-            _ => {
-                return if A::PREMULTIPLIED {
-                    let [r, g, b, a] = color;
-                    Premul([r.min(a), g.min(a), b.min(a), a])
-                } else {
-                    Straight(color).premultiply()
-                };
-            }
-        };
-        let Straight([r, g, b, a]) =
-            if A::PREMULTIPLIED { Premul(color).unpremultiply() } else { Straight(color) };
-        let [r, g, b] = [r, g, b].map(|v| curve(v.min(1.0)));
-        Straight([r, g, b, a]).premultiply()
+    /// Whether every pixel is opaque.
+    #[must_use]
+    pub fn is_opaque(&self) -> bool {
+        let one = |c: P::Channel| if self.format.halves { half(c.code()) } else { c.value() };
+        let opaque = |p: &P| p.spread(|_| 0.0, one)[3] >= 1.0;
+        !P::ALPHA || self.view.rows().all(|row| row.iter().all(opaque))
     }
 }
 
@@ -220,67 +400,6 @@ impl<P: Channels<Channel = u16>, A: Alpha> Texels<'_, P, A> {
     /// The numbers are the bits of half floats (IEEE 754 binary16), in linear light.
     #[must_use]
     pub fn half_floats(self) -> Self {
-        Self { halves: true, light: true, ..self }
-    }
-}
-
-/// A half float whose bits, as a part of 65535, are this; the product is exact enough to give them
-/// back.
-#[inline(always)]
-fn half(part: f32) -> f32 {
-    // The quotient that made it was within half an ulp, and 65535 parts are far wider than that.
-    let bits = (part * 65535.0 + 0.5) as u32;
-    let (sign, magnitude) = (bits & 0x8000, bits & 0x7fff);
-    // As a float with the exponent still off by 112, which a product mends; infinities and NaNs are
-    // those of the larger type.
-    let value = if magnitude < 0x7c00 {
-        f32::from_bits(magnitude << 13) * f32::from_bits(0x7780_0000)
-    } else {
-        f32::from_bits(0x7f80_0000 | (magnitude & 0x3ff) << 13)
-    };
-    if sign == 0 { value } else { -value }
-}
-
-/// Texels on their way into a space.
-pub(crate) struct Imported<'a, P, A> {
-    pub(crate) texels: &'a Texels<'a, P, A>,
-    pub(crate) space: WorkingSpace,
-}
-
-impl<P: Channels, A: Alpha> Rows for Imported<'_, P, A> {
-    fn width(&self) -> usize {
-        self.texels.view.width()
-    }
-
-    fn height(&self) -> usize {
-        self.texels.view.height()
-    }
-
-    #[inline(always)]
-    fn read(&self, y: usize, out: &mut [[f32; 4]]) {
-        for (out, pixel) in out.iter_mut().zip(self.texels.view.row(y)) {
-            *out = self.texels.import(*pixel, self.space).0.map(|v| whole(v * ONE));
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_half_float_is_itself() {
-        for bits in 0..=u16::MAX {
-            let found = half(bits.value());
-            let (exponent, fraction) =
-                (i32::from(bits >> 10 & 31), f64::from(bits & 0x3ff) / 1024.0);
-            let sign = if bits & 0x8000 == 0 { 1.0 } else { -1.0 };
-            match (exponent, fraction) {
-                (31, 0.0) => assert_eq!(f64::from(found), sign * f64::INFINITY),
-                (31, _) => assert!(found.is_nan()),
-                (0, f) => assert_eq!(f64::from(found), sign * f * 2f64.powi(-14)),
-                (e, f) => assert_eq!(f64::from(found), sign * (1.0 + f) * 2f64.powi(e - 15)),
-            }
-        }
+        Self { format: self.format.half_floats(), ..self }
     }
 }

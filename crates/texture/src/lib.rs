@@ -65,15 +65,17 @@
 //! # Cost
 //!
 //! - Memory: 8 bytes a texel, four numbers of 16 bits in steps of 1/16,320 (64 to a code of eight bits),
-//!   and a third more for the pyramid. Rounding to a step is noise at −95 dB. Values beyond −¼…1¼ are
-//!   cut to that when they are stored.
+//!   and a third more for the pyramid. Rounding to a step is noise at −95 dB. Images in more than eight
+//!   bits and in floats are stored as floats, 16 bytes a texel, as bright as they are ([`Storage`]).
+//! - Only what is asked for is made and kept: [`Levels`] says which levels, [`TextureOptions::window`]
+//!   which part of the image, and [`TextureBuilder`] takes rows as a decoder yields them.
 //! - A pixel of the ground plane, on one core of a server (Zen 4, 512-bit vectors) by
 //!   [`Texture::sample_row`]: nearest 5 ns, bilinear 10, trilinear 14, [`Sampler::FAST`] 49,
 //!   [`Sampler::DEFAULT`] 75, of which some 15 are set-up; every texel that an ellipse reads takes
 //!   0.7 to 1 more. [`Texture::sample`] sets up one pixel at a time and is slower; runs of four and more
 //!   pixels are worth a row.
-//! - A pyramid takes as long to make as fresh memory from the system does, or up to twice that:
-//!   [`Texture::renewed`] makes one in the memory of another.
+//! - A pyramid takes about as long to make as fresh memory from the system does: [`Texture::renewed`]
+//!   makes one in the memory of another.
 //!
 //! # Example
 //!
@@ -106,10 +108,12 @@ extern crate alloc;
 
 mod abreast;
 mod batch;
+mod builder;
 mod classic;
 pub mod compare;
 mod covariance;
 mod decimate;
+mod decode;
 mod engine;
 mod error;
 mod ewa;
@@ -133,6 +137,7 @@ mod probes;
 pub mod procedural;
 mod pyramid;
 mod radial;
+mod reach;
 pub mod reference;
 mod sampler;
 mod separable;
@@ -141,16 +146,20 @@ mod taps;
 mod texel;
 mod texture;
 mod walk;
+mod walk_float;
 mod walk_simd;
 mod wrap;
 
+pub use builder::TextureBuilder;
 pub use error::TextureError;
 pub use footprint::Footprint;
-pub use format::{Alpha, Channel, Channels, PremultipliedAlpha, StraightAlpha, Texels};
+pub use format::{
+    Alpha, Channel, Channels, PremultipliedAlpha, StraightAlpha, TexelFormat, Texels,
+};
 pub use kernel::{Kernel, RadialFilter};
 pub use magnify::Magnify;
 pub use names::UnknownName;
-pub use options::{Decimation, Levels, TextureOptions};
+pub use options::{Decimation, Levels, Storage, TextureOptions};
 pub use probes::Probes;
 pub use sampler::{LevelMode, PixelFilter, Sampler};
 pub use separable::Separable;

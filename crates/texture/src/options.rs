@@ -1,4 +1,5 @@
 use crate::Wrap;
+use scumble_geometry::IntRect;
 use scumble_pixel::WorkingSpace;
 
 /// The filter that makes each level of a pyramid from the finer one.
@@ -45,13 +46,42 @@ pub enum Levels {
     ///
     /// Where the footprint asks for a finer level the first is magnified, and for a coarser one the
     /// last costs more texels, up to a budget. Positions and Jacobians stay in texels of the image.
-    /// While the texture is made, the finer levels are there too.
+    /// The finer levels are not kept, and not made either but for some rows at a time.
     Range {
         /// The finest level to keep; 0 is the image.
         first: usize,
         /// The coarsest.
         last: usize,
     },
+}
+
+/// What texels are stored as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Storage {
+    /// [`Storage::Compact`] for images of bytes, [`Storage::Float`] for all others: 16-bit codes are
+    /// four times finer than its steps, and floats may be brighter than 1.
+    #[default]
+    Auto,
+    /// Numbers of 16 bits in steps of 1/16,320, sixty-four to a code of eight bits: 8 bytes a texel.
+    /// Rounding to a step is noise at −95 dB. Images are cut to 0…1 as they are stored, and samples lie
+    /// in 0…alpha. All the fast loops are for this.
+    Compact,
+    /// Floats: 16 bytes a texel. Nothing is rounded and colours are not cut, below 0 and above alpha
+    /// neither in the texture nor in its samples, so a sharp pyramid's few hundredths of overshoot show
+    /// in them; only alpha is in 0…1, a NaN is 0, and magnitudes end at 10³⁰. The elliptical filter takes
+    /// two to three times as long.
+    Float,
+}
+
+impl Storage {
+    /// Whether texels are floats, of an image of bytes or of another.
+    pub(crate) fn is_float(self, bytes: bool) -> bool {
+        match self {
+            Self::Auto => !bytes,
+            Self::Compact => false,
+            Self::Float => true,
+        }
+    }
 }
 
 /// How a texture is made of an image.
@@ -65,4 +95,20 @@ pub struct TextureOptions {
     pub decimation: Decimation,
     /// The levels to build.
     pub levels: Levels,
+    /// What texels are stored as.
+    pub storage: Storage,
+    /// The part of the image, in its texels, that samples will read; `None` for all of it.
+    ///
+    /// Of each level only what lies under the window is kept, and eight texels of that level around
+    /// it; only what that is made of is converted. A coarse level, of which a few texels are the whole
+    /// image, is made of the whole image: a window saves most with [`Levels::BaseOnly`] or
+    /// [`Levels::Range`].
+    ///
+    /// That nothing else is read is the caller's promise: [`Sampler::reach`](crate::Sampler::reach)
+    /// says how far a footprint reads around its centre. Samples whose ellipses lie in the window are
+    /// those of the whole texture, bit for bit. Others take the nearest texel that is kept for those
+    /// that are not; nothing worse comes of it. Beyond the edges of the image [`Wrap`] goes on as ever,
+    /// so where it repeats or mirrors the window must hold what is read there. What lies outside the
+    /// image is taken off the window, and of a window without a texel one is kept.
+    pub window: Option<IntRect>,
 }

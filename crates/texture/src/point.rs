@@ -4,8 +4,7 @@ use crate::engine::Engine;
 use crate::level::Level;
 use crate::lod::{self, Pick};
 use crate::math::{floor, whole};
-use crate::texel::{STEP, Texel, steps};
-use crate::texture::into_range;
+use crate::texel::{Texel, steps};
 use crate::{Footprint, LevelMode, Texture, Wrap};
 use scumble_pixel::Premul;
 
@@ -17,7 +16,7 @@ pub(crate) fn lerp(a: [f32; 4], b: [f32; 4], t: f32) -> [f32; 4] {
 
 /// A filter of a place in a level.
 pub(crate) trait Point: Copy {
-    /// The colours, in steps, at places given in texels of level 0.
+    /// The colours, in the level's unit, at places given in texels of level 0.
     ///
     /// One loop for the indices, which has no branch, and one for the texels.
     fn colors<const N: usize>(
@@ -52,11 +51,13 @@ impl Point for Nearest {
             x[i] = whole(floor(u[i] * su)) & level.mask[0];
             y[i] = whole(floor(v[i] * sv)) & level.mask[1];
         }
+        if level.is_float() {
+            return core::array::from_fn(|i| level.texel(x[i], y[i], wrap));
+        }
         let mut texels = [[0; 4]; N];
         if holds(level, &x, &y, 1) {
             for i in 0..N {
-                let row = y[i] as u32 as usize * level.stride;
-                texels[i] = level.texels[row + x[i] as u32 as usize];
+                texels[i] = level.texels[level.index(x[i], y[i])];
             }
         } else {
             for i in 0..N {
@@ -93,10 +94,19 @@ impl Point for Bilinear {
         }
         let inside = holds(level, &x, &y, 2);
         let mut colors = [[0.0; 4]; N];
+        if level.is_float() {
+            for i in 0..N {
+                let texel = |down, right| level.texel(x[i] + right, y[i] + down, wrap);
+                let left = lerp(texel(0, 0), texel(1, 0), fy[i]);
+                let right = lerp(texel(0, 1), texel(1, 1), fy[i]);
+                colors[i] = lerp(left, right, fx[i]);
+            }
+            return colors;
+        }
         for i in 0..N {
-            let top = y[i] as u32 as usize * level.stride + x[i] as u32 as usize;
-            let bottom = top + level.stride;
-            let run = |i: usize| level.texels.get(i..i + 2)?.first_chunk();
+            let top = level.index(x[i], y[i]);
+            let bottom = top.wrapping_add(level.stride);
+            let run = |i: usize| level.texels.get(i..)?.first_chunk();
             colors[i] = match (run(top), run(bottom)) {
                 (Some(top), Some(bottom)) if inside => engine.bilinear(top, bottom, fx[i], fy[i]),
                 _ => {
@@ -109,13 +119,14 @@ impl Point for Bilinear {
     }
 }
 
-/// Whether the squares of `side` texels from (x, y) on lie in the level, all of them.
+/// Whether the squares of `side` texels from (x, y) on are kept, all of them.
 #[inline(always)]
 fn holds<const N: usize>(level: &Level, x: &[i32; N], y: &[i32; N], side: i32) -> bool {
-    let (right, bottom) = (level.width as i32 - side, level.height as i32 - side);
+    let [left, top] = level.part.map(|span| span.start as i32);
+    let [right, bottom] = level.part.map(|span| span.end as i32 - side);
     let mut inside = true;
     for i in 0..N {
-        inside &= (x[i] >= 0) & (y[i] >= 0) & (x[i] <= right) & (y[i] <= bottom);
+        inside &= (x[i] >= left) & (y[i] >= top) & (x[i] <= right) & (y[i] <= bottom);
     }
     inside
 }
@@ -258,8 +269,9 @@ impl<const N: usize> Places<N> {
                 *color = lerp(*color, next, coarser);
             }
         }
+        let unit = t.levels[index].unit();
         for (out, color) in out.iter_mut().zip(colors) {
-            *out = into_range(color.map(|v| v * STEP));
+            *out = t.within_range(color.map(|v| v * unit));
         }
     }
 }

@@ -1,6 +1,7 @@
 #[cfg(doc)]
 use crate::Probes;
-use crate::{Kernel, Magnify, Separable};
+use crate::math::sqrt;
+use crate::{Footprint, Kernel, Magnify, Separable};
 
 /// How texels of one level make a colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -92,7 +93,9 @@ impl Sampler {
     /// For print and masters.
     pub const HIGH: Self =
         Self { max_eccentricity: 64.0, least_sigma: 0.8, magnify: Magnify::Taps, ..Self::DEFAULT };
-    /// Truth for tests: up to ten times the texels of the default, where the texture is far away.
+    /// Truth for tests: up to ten times the texels of the default, where the texture is far away. Over
+    /// a texture in steps of 16 bits their rounding is what is left of the error; where that counts, ask
+    /// for [`Storage::Float`](crate::Storage::Float).
     pub const REFERENCE: Self = Self {
         max_eccentricity: 1024.0,
         radius: 4.0,
@@ -120,6 +123,33 @@ impl Sampler {
     #[must_use]
     pub const fn with(self, pixel: PixelFilter, level: LevelMode) -> Self {
         Self { pixel, level, ..self }
+    }
+
+    /// How far to either side of its centre, in columns and in rows of the image, a footprint is read
+    /// at most, apart from the eight texels around that
+    /// [`TextureOptions::window`](crate::TextureOptions::window) adds in each level. A bound, not the
+    /// least one; ∞ for what is not finite.
+    #[must_use]
+    pub fn reach(&self, f: &Footprint) -> [f64; 2] {
+        if !f.is_finite() || !f.is_bounded() {
+            return [f64::INFINITY; 2];
+        }
+        let magnified = match self.magnify {
+            Magnify::Radial(kernel) => kernel.radius(),
+            _ => 0.0,
+        };
+        // The unit circle is the pixel's, whose σ is one half.
+        let kernel = match (self.pixel, self.kernel) {
+            (PixelFilter::Ewa, Kernel::Gaussian) => 0.5 * self.radius.clamp(2.0, 4.0),
+            (_, kernel) => kernel.radius().max(2.0),
+        };
+        let radius = kernel.max(magnified);
+        // The least axis that the texels and the largest axis ratio leave.
+        let ratio = f64::from(self.max_eccentricity.clamp(1.0, 1024.0));
+        let least = 2.0 + f.major_squared() / (ratio * ratio);
+        let j = &f.jacobian;
+        let side = |squares: f64| f64::from(radius) * sqrt(squares + least);
+        [side(j.a * j.a + j.b * j.b), side(j.c * j.c + j.d * j.d)]
     }
 }
 

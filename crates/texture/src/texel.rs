@@ -5,8 +5,152 @@
 //! sixty-four to each code of eight bits: codes are exact, and so are the sums of up to 64 of them that
 //! the box filter divides. Rounding to a step is noise at −95 dB.
 
+use crate::level::Level;
+use crate::pyramid::{Lanes, halve};
+use alloc::vec::Vec;
+
 /// Premultiplied RGBA in the working space, in steps.
 pub(crate) type Texel = [i16; 4];
+
+/// A texel as it is stored: in steps, or in floats.
+pub(crate) trait Cell: Copy + Default + Send + Sync {
+    /// A channel.
+    type Number: Copy + Into<f32>;
+    /// Whether it is rounded to a step, after which sums of constants are the constant again.
+    const ROUNDS: bool;
+    /// The channels of a row.
+    fn flat(row: &[Self]) -> &[Self::Number];
+    /// The mean of four.
+    fn mean(four: [Self; 4]) -> Self;
+    /// Its numbers, in the unit that they are stored in.
+    fn numbers(self) -> [f32; 4];
+    /// The texel nearest to such numbers.
+    fn of_numbers(numbers: [f32; 4]) -> Self;
+    /// The texel nearest to a colour.
+    fn of_color(color: [f32; 4]) -> Self;
+    /// The texel of a colour in parts of 255².
+    fn of_products(products: [f32; 4]) -> Self;
+    /// The texel of numbers in steps.
+    fn of_steps(steps: Texel) -> Self;
+    /// The texels of opaque, encoded pixels of three bytes, as many as it likes from the first on;
+    /// returns how many.
+    #[inline(always)]
+    fn of_rgb(_: impl Lanes, _: &[u8], _: &mut [Self]) -> usize {
+        0
+    }
+    /// The means of two by two texels of two rows.
+    #[inline(always)]
+    fn halve(_: impl Lanes, above: &[Self], below: &[Self], out: &mut [Self]) {
+        halve(above, below, out);
+    }
+    /// The memory of a level of such texels.
+    fn memory(level: &mut Level) -> &mut Vec<Self>;
+}
+
+impl Cell for Texel {
+    type Number = i16;
+    const ROUNDS: bool = true;
+
+    #[inline(always)]
+    fn flat(row: &[Self]) -> &[i16] {
+        row.as_flattened()
+    }
+
+    #[inline(always)]
+    fn mean(four: [Self; 4]) -> Self {
+        core::array::from_fn(|c| {
+            let sum: i32 = four.iter().map(|t| i32::from(t[c])).sum();
+            // Halves to even, as everywhere.
+            ((sum + 1 + (sum >> 2 & 1)) >> 2) as i16
+        })
+    }
+
+    #[inline(always)]
+    fn numbers(self) -> [f32; 4] {
+        steps(self)
+    }
+
+    #[inline(always)]
+    fn of_numbers(numbers: [f32; 4]) -> Self {
+        numbers.map(round)
+    }
+
+    #[inline(always)]
+    fn of_color(color: [f32; 4]) -> Self {
+        of_color(color)
+    }
+
+    #[inline(always)]
+    fn of_products(products: [f32; 4]) -> Self {
+        // Off by less than a thousandth and a half, and no product lies within one and nine tenths of
+        // the middle between two steps: the nearest step is that of the exact product.
+        products.map(|v| round(v * (64.0 / 255.0)))
+    }
+
+    #[inline(always)]
+    fn of_steps(steps: Texel) -> Self {
+        steps
+    }
+
+    #[inline(always)]
+    fn of_rgb(lanes: impl Lanes, bytes: &[u8], out: &mut [Self]) -> usize {
+        lanes.of_rgb(bytes, out)
+    }
+
+    #[inline(always)]
+    fn halve(lanes: impl Lanes, above: &[Self], below: &[Self], out: &mut [Self]) {
+        lanes.halve(above, below, out);
+    }
+
+    fn memory(level: &mut Level) -> &mut Vec<Self> {
+        &mut level.texels
+    }
+}
+
+impl Cell for [f32; 4] {
+    type Number = f32;
+    const ROUNDS: bool = false;
+
+    #[inline(always)]
+    fn flat(row: &[Self]) -> &[f32] {
+        row.as_flattened()
+    }
+
+    #[inline(always)]
+    fn mean([a, b, c, d]: [Self; 4]) -> Self {
+        // About one of them: equal ones are their mean.
+        core::array::from_fn(|i| a[i] + ((b[i] - a[i]) + (c[i] - a[i]) + (d[i] - a[i])) * 0.25)
+    }
+
+    #[inline(always)]
+    fn numbers(self) -> [f32; 4] {
+        self
+    }
+
+    #[inline(always)]
+    fn of_numbers(numbers: [f32; 4]) -> Self {
+        numbers
+    }
+
+    #[inline(always)]
+    fn of_color(color: [f32; 4]) -> Self {
+        color
+    }
+
+    #[inline(always)]
+    fn of_products(products: [f32; 4]) -> Self {
+        products.map(|v| v / (255.0 * 255.0))
+    }
+
+    #[inline(always)]
+    fn of_steps(steps: Texel) -> Self {
+        color(steps)
+    }
+
+    fn memory(level: &mut Level) -> &mut Vec<Self> {
+        &mut level.floats
+    }
+}
 
 /// 1.0, in steps.
 pub(crate) const ONE: f32 = 16_320.0;
@@ -29,13 +173,6 @@ pub(crate) fn round(v: f32) -> i16 {
     let v = if v > LEAST { v } else { LEAST };
     let v = if v < MOST { v } else { MOST };
     (v + ROUNDER).to_bits() as i16
-}
-
-/// A channel in steps brought to a whole number of them, as it will be stored: what a level is made of
-/// must be what is stored, or a constant that lies half way between two steps goes either way.
-#[inline(always)]
-pub(crate) fn whole(v: f32) -> f32 {
-    (v + ROUNDER) - ROUNDER
 }
 
 /// The colour in steps of a texel.

@@ -1,27 +1,28 @@
 use crate::batch;
+use crate::decode::Decoder;
 use crate::engine::{Engine, Scalar, Vector};
 use crate::ewa::{self, Limits};
-use crate::format::{Alpha, Channels, Imported, Texels};
-use crate::level::{LARGEST, Level, stride};
+use crate::format::{Alpha, Channels, Texels};
+use crate::level::{LARGEST, Level};
 use crate::point::{self, Bilinear, Nearest};
-use crate::pyramid::{self, Bytes, Rows};
-use crate::texel::{self, Texel};
+use crate::pyramid;
+use crate::pyramid::plan::{self, Plan, Span};
+use crate::texel::{self, Cell, Texel};
 use crate::wrap::Nearer;
 use crate::{
-    Footprint, LevelMode, Levels, PixelFilter, Sampler, Simd, TextureError, TextureOptions, Wrap,
-    extra, lod,
+    Footprint, LevelMode, PixelFilter, Sampler, Simd, TextureError, TextureOptions, Wrap, extra,
+    lod,
 };
 use alloc::vec::Vec;
-use core::ops::Range;
 use fearless_simd::dispatch;
-use scumble_geometry::{DVec2, Homography, Matrix2};
+use scumble_geometry::{DVec2, Homography, IntRect, Matrix2};
 use scumble_pixel::{Image, ImageView, Premul, WorkingSpace};
 
 /// An image made ready to be filtered: its pyramid, premultiplied, in the working space.
 ///
-/// Texels take 8 bytes each (four numbers of 16 bits, in steps of 1/16,320), rows are padded by
-/// three to eighteen of them, and all levels together take a third more than the base:
-/// [`Texture::memory_for`] says it before anything is allocated.
+/// Texels take 8 bytes each (four numbers of 16 bits, in steps of 1/16,320), or 16 as floats
+/// ([`Storage`](crate::Storage)); rows are padded by three to eighteen of them, and all levels together
+/// take a third more than the base: [`Texture::memory_for`] says it before anything is allocated.
 #[derive(Debug, Clone)]
 pub struct Texture {
     /// Those that are kept.
@@ -33,12 +34,17 @@ pub struct Texture {
     pub(crate) wrap: Wrap,
     space: WorkingSpace,
     average: [f32; 4],
+    /// Whether all colours of the image are in 0…alpha, and so are samples.
+    bounded: bool,
     pub(crate) nearer: [Nearer; 2],
     pub(crate) simd: Simd,
 }
 
 impl Texture {
     /// A texture from straight-alpha, sRGB-encoded RGBA8.
+    ///
+    /// [`Texture::from_texels`] takes other formats, and [`TextureBuilder`](crate::TextureBuilder) rows
+    /// as they are decoded.
     ///
     /// # Errors
     /// [`TextureError::Empty`] for an image without a pixel; [`TextureError::TooLarge`] and
@@ -47,7 +53,7 @@ impl Texture {
         image: ImageView<'_, [u8; 4]>,
         options: &TextureOptions,
     ) -> Result<Self, TextureError> {
-        Self::make(image, options, Vec::new())
+        Self::make(&Texels::straight(image), options, Vec::new())
     }
 
     /// The texture of another image, like [`Texture::new`], in the memory of this one where its levels
@@ -61,17 +67,7 @@ impl Texture {
         options: &TextureOptions,
     ) -> Result<Self, TextureError> {
         let simd = self.simd;
-        Ok(Self::make(image, options, self.levels)?.with_simd(simd))
-    }
-
-    fn make(
-        image: ImageView<'_, [u8; 4]>,
-        options: &TextureOptions,
-        old: Vec<Level>,
-    ) -> Result<Self, TextureError> {
-        let size = [image.width(), image.height()];
-        Self::check(size, options)?;
-        Self::over(levels(&Bytes::new(image, options.space), options, old)?, size, options)
+        Ok(Self::make(&Texels::straight(image), options, self.levels)?.with_simd(simd))
     }
 
     /// A texture from an image in any of the formats that there are.
@@ -82,9 +78,24 @@ impl Texture {
         texels: &Texels<'_, P, A>,
         options: &TextureOptions,
     ) -> Result<Self, TextureError> {
-        Self::check(texels.size(), options)?;
-        let rows = Imported { texels, space: options.space };
-        Self::over(levels(&rows, options, Vec::new())?, texels.size(), options)
+        Self::make(texels, options, Vec::new())
+    }
+
+    fn make<P: Channels, A: Alpha>(
+        texels: &Texels<'_, P, A>,
+        options: &TextureOptions,
+        old: Vec<Level>,
+    ) -> Result<Self, TextureError> {
+        let size = texels.size();
+        Self::check(size, options)?;
+        let pixels = size[0].saturating_mul(size[1]);
+        let decoder = Decoder::new(texels.format, options.space, pixels);
+        let levels = if options.storage.is_float(texels.format.is_of_bytes()) {
+            pyramid::image::<[f32; 4], _, _>(texels.view, &decoder, options, old)?
+        } else {
+            pyramid::image::<Texel, _, _>(texels.view, &decoder, options, old)?
+        };
+        Self::over(levels, size, options, texels.format.is_bounded())
     }
 
     /// A texture whose every level is one colour, red, yellow, green, cyan, blue, magenta, white and
@@ -98,45 +109,37 @@ impl Texture {
         height: usize,
         options: &TextureOptions,
     ) -> Result<Self, TextureError> {
-        Self::check([width, height], options)?;
-        let mut levels = pyramid_of(width, height, options, Vec::new())?;
-        for (l, level) in levels.iter_mut().enumerate() {
-            let [r, g, b] = LEVEL_COLORS[l % LEVEL_COLORS.len()];
-            level.texels.fill(texel::of_color([r, g, b, 1.0]));
-        }
-        Self::over(levels, [width, height], options)
+        let size = [width, height];
+        Self::check(size, options)?;
+        let levels = if options.storage.is_float(true) {
+            colored::<[f32; 4]>(size, options)?
+        } else {
+            colored::<Texel>(size, options)?
+        };
+        Self::over(levels, size, options, true)
     }
 
     /// Whether a texture of this size can be made.
-    fn check([width, height]: [usize; 2], options: &TextureOptions) -> Result<(), TextureError> {
-        if width == 0 || height == 0 {
-            return Err(TextureError::Empty);
-        }
+    pub(crate) fn check(size: [usize; 2], options: &TextureOptions) -> Result<(), TextureError> {
+        plan::check(size)?;
+        let [width, height] = size;
         match Self::memory_for(width, height, options) {
             Some(_) => Ok(()),
             None => Err(TextureError::TooLarge { width, height }),
         }
     }
 
-    /// The texture of all levels from the image on, of which it keeps those that are asked for.
-    fn over(
-        levels: Vec<Level>,
+    /// The texture of the levels that are kept.
+    pub(crate) fn over(
+        mut levels: Vec<Level>,
         size: [usize; 2],
         options: &TextureOptions,
+        bounded: bool,
     ) -> Result<Self, TextureError> {
-        let first = kept(size[0], size[1], options.levels).start;
-        let TextureOptions { space, wrap, decimation, .. } = *options;
-        let mut levels: Vec<Level> = match levels.get(first) {
-            Some(base) if first > 0 => {
-                let base = [base.width, base.height];
-                let rest = levels.into_iter().skip(first);
-                rest.map(|l| l.over(base, decimation.variance())).collect()
-            }
-            _ => levels,
-        };
+        let TextureOptions { space, wrap, .. } = *options;
         let average = match &levels[..] {
-            [.., Level { width: 1, height: 1, texels, .. }] => texel::color(texels[0]),
-            [base, ..] => mean(base),
+            [.., last @ Level { width: 1, height: 1, .. }] => last.mean(),
+            [base, ..] => base.mean(),
             [] => return Err(TextureError::Empty),
         };
         if wrap == Wrap::Repeat {
@@ -145,7 +148,8 @@ impl Texture {
         let [width, height] = [levels[0].width, levels[0].height];
         let nearer = [Nearer::new(wrap, width), Nearer::new(wrap, height)];
         let scale = [width as f64 / size[0] as f64, height as f64 / size[1] as f64];
-        Ok(Self { levels, size, scale, wrap, space, average, nearer, simd: Simd::best() })
+        let simd = Simd::best();
+        Ok(Self { levels, size, scale, wrap, space, average, bounded, nearer, simd })
     }
 
     /// The same texture, sampled with other instructions and the same results.
@@ -179,40 +183,65 @@ impl Texture {
     }
 
     /// A copy of the texels of a level, premultiplied RGBA in the working space, counted from the first
-    /// that is kept; `None` beyond the last.
+    /// that is kept; `None` beyond the last. Of a texture with a window, those that are kept
+    /// ([`Texture::level_window`]).
     ///
-    /// Of the whole pyramid level l is ⌊width/2ˡ⌋ × ⌊height/2ˡ⌋ and at least 1×1. Kaiser levels may overshoot 0…1 by a
-    /// few hundredths at sharp edges, as any sharp filter does; samples never do.
+    /// Of the whole pyramid level l is ⌊width/2ˡ⌋ × ⌊height/2ˡ⌋ and at least 1×1. Kaiser levels may
+    /// overshoot 0…1 by a few hundredths at sharp edges, as any sharp filter does; samples never do.
     #[must_use]
     pub fn level(&self, index: usize) -> Option<Image<[f32; 4]>> {
         let level = self.levels.get(index)?;
-        let stored = ImageView::new(level.width, level.height, level.stride, &level.texels).ok()?;
+        let [columns, rows] = level.part.map(Span::len);
+        if level.is_float() {
+            let stored = ImageView::new(columns, rows, level.stride, &level.floats).ok()?;
+            return Some(stored.to_image());
+        }
+        let stored = ImageView::new(columns, rows, level.stride, &level.texels).ok()?;
         Some(stored.to_image().map(|t| texel::color(*t)))
+    }
+
+    /// The texels of a level that are kept, in texels of that level: all unless
+    /// [`TextureOptions::window`] says otherwise. Levels count as in [`Texture::level`].
+    #[must_use]
+    pub fn level_window(&self, index: usize) -> Option<IntRect> {
+        let [columns, rows] = self.levels.get(index)?.part;
+        // Sides are below 2²⁹.
+        let [x0, x1, y0, y1] = [columns.start, columns.end, rows.start, rows.end].map(|i| i as i32);
+        Some(IntRect::new(x0, y0, x1, y1))
     }
 
     /// Bytes of texels that this texture holds.
     #[must_use]
     pub fn memory(&self) -> usize {
-        self.levels.iter().map(|l| size_of_val(&l.texels[..])).sum()
+        self.levels.iter().map(|l| size_of_val(&l.texels[..]) + size_of_val(&l.floats[..])).sum()
     }
 
     /// Bytes of texels that a texture of this size will hold; `None` if that overflows or a
-    /// side is above 2²⁹.
+    /// side is above 2²⁹. With [`Storage::Auto`](crate::Storage::Auto) those of an image of bytes.
     #[must_use]
     pub fn memory_for(width: usize, height: usize, options: &TextureOptions) -> Option<usize> {
         if width.max(height) > LARGEST {
             return None;
         }
         let mut bytes = 0usize;
-        for l in kept(width, height, options.levels) {
-            let texels = stride((width >> l).max(1)).checked_mul((height >> l).max(1))?;
-            bytes = bytes.checked_add(texels.checked_mul(size_of::<Texel>())?)?;
+        if width.min(height) == 0 {
+            return Some(0);
+        }
+        let levels = plan::kept_levels([width, height], options.levels);
+        let float = options.storage.is_float(true);
+        let texel = if float { size_of::<[f32; 4]>() } else { size_of::<Texel>() };
+        for l in levels.start..levels.end {
+            let size = plan::size_of_level([width, height], l);
+            let part = plan::kept_part([width, height], size, options);
+            let texels = plan::texels_kept(part)?;
+            bytes = bytes.checked_add(texels.checked_mul(texel)?)?;
         }
         isize::try_from(bytes).ok().map(isize::unsigned_abs)
     }
 
-    /// The colour of a footprint: premultiplied, in the working space, each channel in 0…alpha and
-    /// alpha in 0…1.
+    /// The colour of a footprint: premultiplied, in the working space, alpha in 0…1 and each channel in
+    /// 0…alpha, if it was in the image: of one in floats that are stored as such
+    /// ([`Storage::Float`](crate::Storage::Float)) colours are not cut.
     ///
     /// Finite for every footprint. A centre that is not finite gives the mean of the texture; so
     /// does a Jacobian that is not, or that has a component beyond 2³⁰, where the filter needs it.
@@ -235,6 +264,15 @@ impl Texture {
             s,
             out,
         );
+    }
+
+    /// The colours of a run of footprints: `out[i]` is what [`Texture::sample`] gives for
+    /// `footprints[i]`, to the last bit. The shorter slice ends it.
+    pub fn sample_footprints(&self, footprints: &[Footprint], s: &Sampler, out: &mut [Premul]) {
+        let count = footprints.len().min(out.len());
+        // Batches are set up whole, so some are asked for that are not there.
+        let at = |i: usize| footprints.get(i).copied().unwrap_or(Footprint::point(0.0, 0.0));
+        self.dispatch(at, s, &mut out[..count]);
     }
 
     /// Samples a run of footprints: by the fast paths, or by what is beside them.
@@ -280,13 +318,14 @@ impl Texture {
             _ => (),
         }
         let limits = Limits::new(s);
-        if s.level == LevelMode::Auto && out.len() >= batch::WORTH {
+        let float = self.levels[0].is_float();
+        if s.level == LevelMode::Auto && out.len() >= batch::WORTH && !float {
             return batch::fill(self, engine, at, &limits, out);
         }
         for (i, out) in out.iter_mut().enumerate() {
             let f = self.nearer(&at(i));
             *out = if f.is_finite() && f.is_bounded() {
-                into_range(ewa::sample(self, engine, &f, s.level, &limits))
+                self.within_range(ewa::sample(self, engine, &f, s.level, &limits))
             } else {
                 self.average()
             };
@@ -344,7 +383,17 @@ impl Texture {
 
     /// What stands for a footprint that reaches infinitely far.
     pub(crate) fn average(&self) -> Premul {
-        into_range(self.average)
+        self.within_range(self.average)
+    }
+
+    /// A sample within what the image's colours are, without what a sharp pyramid overshoots.
+    #[inline(always)]
+    pub(crate) fn within_range(&self, color: [f32; 4]) -> Premul {
+        if self.bounded {
+            return into_range(color);
+        }
+        let [r, g, b, a] = color;
+        Premul([r, g, b, a.clamp(0.0, 1.0)])
     }
 }
 
@@ -355,62 +404,6 @@ pub(crate) fn point_mode(s: &Sampler) -> LevelMode {
         (LevelMode::Auto, _) => LevelMode::Linear,
         (mode, _) => mode,
     }
-}
-
-/// The levels to keep of a pyramid over an image of this size; at least one.
-fn kept(width: usize, height: usize, levels: Levels) -> Range<usize> {
-    let all = width.max(height).checked_ilog2().map_or(0, |l| l as usize + 1);
-    match levels {
-        Levels::All => 0..all,
-        Levels::BaseOnly => 0..all.min(1),
-        Levels::Range { first, last } => {
-            let first = first.min(all.saturating_sub(1));
-            first..last.saturating_add(1).clamp(first + 1, all.max(first + 1))
-        }
-    }
-}
-
-/// Levels to be filled, from the image's size to the last that is kept, in the memory of others.
-fn pyramid_of(
-    width: usize,
-    height: usize,
-    options: &TextureOptions,
-    old: Vec<Level>,
-) -> Result<Vec<Level>, TextureError> {
-    let mut old = old.into_iter().map(|level| level.texels);
-    let level = |l: usize| {
-        let old = old.next().unwrap_or_default();
-        let level = Level::new((width >> l).max(1), (height >> l).max(1), old)?;
-        Ok(level.over([width, height], options.decimation.variance()))
-    };
-    (0..kept(width, height, options.levels).end).map(level).collect()
-}
-
-/// The image and its pyramid, to the last level that is kept, in the memory of others.
-fn levels(
-    image: &impl Rows,
-    options: &TextureOptions,
-    old: Vec<Level>,
-) -> Result<Vec<Level>, TextureError> {
-    let TextureOptions { decimation, wrap, .. } = *options;
-    let (width, height) = (image.width(), image.height());
-    let mut levels = pyramid_of(width, height, options, old)?;
-    let made = match &mut levels[..] {
-        [base, next, ..] if height.is_multiple_of(2) => {
-            pyramid::store_and_halve(image, base, next, decimation, wrap);
-            2
-        }
-        [base, ..] => {
-            pyramid::store(image, base);
-            1
-        }
-        [] => 0,
-    };
-    for l in made..levels.len() {
-        let (fine, coarse) = levels.split_at_mut(l);
-        pyramid::halve(&fine[l - 1], &mut coarse[0], decimation, wrap);
-    }
-    Ok(levels)
 }
 
 /// The colours of [`Texture::colored_levels`].
@@ -425,16 +418,18 @@ const LEVEL_COLORS: [[f32; 3]; 8] = [
     [0.0, 0.0, 0.0],
 ];
 
-/// The mean texel.
-fn mean(level: &Level) -> [f32; 4] {
-    let mut sum = [0i64; 4];
-    for t in (0..level.height).flat_map(|y| level.row(y)) {
-        for (sum, t) in sum.iter_mut().zip(t) {
-            *sum += i64::from(*t);
-        }
+/// The levels of [`Texture::colored_levels`].
+fn colored<T: Cell>(
+    size: [usize; 2],
+    options: &TextureOptions,
+) -> Result<Vec<Level>, TextureError> {
+    let mut levels = Plan::new(size, options).empty::<T>(options, Vec::new())?;
+    let first = plan::kept_levels(size, options.levels).start;
+    for (l, level) in levels.iter_mut().enumerate() {
+        let [r, g, b] = LEVEL_COLORS[(first + l) % LEVEL_COLORS.len()];
+        T::memory(level).fill(T::of_color([r, g, b, 1.0]));
     }
-    let n = level.width as f64 * level.height as f64;
-    sum.map(|sum| (sum as f64 / n) as f32 * texel::STEP)
+    Ok(levels)
 }
 
 /// Takes off what a sharp pyramid overshoots: alpha to 0…1, colour to 0…alpha.

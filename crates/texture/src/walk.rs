@@ -7,6 +7,7 @@ use crate::ewa::Limits;
 use crate::gaussian::{UNIT, weight};
 use crate::level::{Frame, Level};
 use crate::math::{floor, floor32, sqrt32, whole};
+use crate::pyramid::plan::Span;
 use crate::texel::{STEP, Texel, of_color};
 
 /// Texels of a row that are read in one piece: a quad.
@@ -80,10 +81,10 @@ impl Walk {
         // An interval of half-width h holds at most ⌊2h⌋ + 1 whole numbers: ⌊h/2⌋ + 1 quads.
         let groups = floor32(0.5 * run) + 1.0;
         // A texel more on either side takes care of rounding, and the last quad's own length.
-        let inside = (u - f64::from(wide + 1.0) >= frame.low)
-            & (u + f64::from(wide + 6.0) <= frame.size[0])
-            & (v - f64::from(tall + 1.0) >= frame.low)
-            & (v + f64::from(tall + 2.0) <= frame.size[1]);
+        let inside = (u - f64::from(wide + 1.0) >= frame.low[0])
+            & (u + f64::from(wide + 6.0) <= frame.high[0])
+            & (v - f64::from(tall + 1.0) >= frame.low[1])
+            & (v + f64::from(tall + 2.0) <= frame.high[1]);
         Self {
             x0: whole(x0),
             y0: whole(y0),
@@ -142,7 +143,7 @@ impl Walk {
             Wrap::Repeat => level.row_with_apron(y),
             _ => level.row(y),
         });
-        Row { texels, width: level.width, wrap }
+        Row { texels, columns: level.part[0], width: level.width, wrap }
     }
 }
 
@@ -161,7 +162,9 @@ pub(crate) fn mean(sums: [f64; 4], total: i32) -> [f32; 4] {
 #[derive(Clone, Copy)]
 pub(crate) struct Row<'a> {
     texels: Option<&'a [Texel]>,
-    /// Texels without the apron.
+    /// Columns that are kept, the apron apart.
+    columns: Span,
+    /// Columns of the level.
     width: usize,
     wrap: Wrap,
 }
@@ -173,7 +176,8 @@ impl Row<'_> {
     pub(crate) fn with_run<R>(&self, x: i32, f: impl FnOnce(&[Texel; LANES]) -> R) -> R {
         // Sizes are below 2²⁹. In a tile, every run begins in the row, and the apron ends it.
         let x = if self.wrap == Wrap::Repeat { x.rem_euclid(self.width as i32) } else { x };
-        let inside = self.texels.and_then(|row| row.get(usize::try_from(x).ok()?..)?.first_chunk());
+        let place = usize::try_from(x - self.columns.start as i32);
+        let inside = self.texels.and_then(|row| row.get(place.ok()?..)?.first_chunk());
         match inside {
             Some(run) => f(run),
             None => f(&self.collect(x)),
@@ -184,9 +188,9 @@ impl Row<'_> {
     #[inline(never)]
     fn collect(&self, x: i32) -> [Texel; LANES] {
         core::array::from_fn(|i| {
-            let found = self
-                .texels
-                .and_then(|row| self.wrap.resolve(x + i as i32, self.width).map(|x| row[x]));
+            let found = self.texels.and_then(|row| {
+                Some(row[self.columns.place(self.wrap.resolve(x + i as i32, self.width)?)])
+            });
             found.unwrap_or_else(|| of_color(self.wrap.border()))
         })
     }

@@ -8,11 +8,11 @@
 mod common;
 
 use common::{Random, noise};
-use scumble_geometry::Matrix2;
+use scumble_geometry::{IntRect, Matrix2};
 use scumble_pixel::{Premul, WorkingSpace};
 use scumble_texture::{
-    Decimation, Footprint, Kernel, LevelMode, Levels, Magnify, PixelFilter, Sampler, Texture,
-    TextureOptions, Wrap, compare,
+    Decimation, Footprint, Kernel, LevelMode, Levels, Magnify, PixelFilter, Sampler, Storage,
+    Texture, TextureOptions, Wrap, compare,
 };
 
 /// The most texels that a sample may read: two levels of the largest ellipse that the sampler allows,
@@ -40,11 +40,16 @@ impl Fuzz {
         let border = Wrap::Constant(Premul([0.1, 0.2, 0.3, 0.5]));
         let first = (self.0.next() % 6) as usize;
         let range = Levels::Range { first, last: first + (self.0.next() % 4) as usize };
+        let mut side = || (self.0.next() % 80) as i32;
+        let (x, y) = (side() - 10, side() - 10);
+        let window = IntRect::new(x, y, x + side(), y + side());
         TextureOptions {
             space: self.pick(&[WorkingSpace::Srgb, WorkingSpace::Linear]),
             wrap: self.pick(&[Wrap::Clamp, Wrap::Repeat, Wrap::Mirror, border]),
             decimation: self.pick(&[Decimation::Kaiser, Decimation::Box]),
             levels: self.pick(&[Levels::All, Levels::All, Levels::BaseOnly, range]),
+            storage: self.pick(&[Storage::Auto, Storage::Auto, Storage::Float]),
+            window: self.pick(&[None, None, Some(window)]),
         }
     }
 

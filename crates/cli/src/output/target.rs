@@ -1,6 +1,7 @@
 use crate::args::STANDARD_STREAM;
 use crate::error::Failure;
 use crate::input::Source;
+use crate::picture::Format;
 use crate::resources::Folders;
 use std::fs::{self, File};
 use std::io::{self, IsTerminal, Read};
@@ -39,8 +40,8 @@ pub(crate) struct FileTarget {
     pub(crate) may_replace: bool,
 }
 
-/// How every PNG begins.
-const PNG_SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
+/// Bytes that tell every format of pictures.
+const LONGEST_SIGNATURE: u64 = 12;
 
 impl Target {
     /// Where the picture of `source` goes, if it may go there.
@@ -106,10 +107,10 @@ impl Target {
         };
         if !force {
             if is_scene(&path, source) {
-                return Err(refusal(shown, "it is the scene itself; --force replaces it"));
+                return Err(refusal(shown, "it is what is read; --force replaces it"));
             }
             if !is_picture(&path).map_err(|e| Failure::file(shown, &e))? {
-                return Err(refusal(shown, "it exists and is not a PNG; --force replaces it"));
+                return Err(refusal(shown, "it exists and is not a picture; --force replaces it"));
             }
         }
         Ok(Self::File(FileTarget { shown: shown.to_owned(), path, may_replace: true }))
@@ -168,9 +169,9 @@ fn is_scene(path: &Path, source: &Source) -> bool {
     }
 }
 
-/// Whether nothing is lost by replacing the file: it is a PNG, or empty.
+/// Whether nothing is lost by replacing the file: it is a picture, or empty.
 fn is_picture(path: &Path) -> io::Result<bool> {
     let mut start = Vec::new();
-    File::open(path)?.take(PNG_SIGNATURE.len() as u64).read_to_end(&mut start)?;
-    Ok(start.is_empty() || start == PNG_SIGNATURE)
+    File::open(path)?.take(LONGEST_SIGNATURE).read_to_end(&mut start)?;
+    Ok(start.is_empty() || Format::of_content(&start).is_some())
 }

@@ -1,8 +1,10 @@
 //! The command as a user meets it: real runs, real files, exit codes and messages.
 
 mod common;
+mod compare;
 mod failures;
 mod limits;
 mod output;
 mod pictures;
 mod report;
+mod signal;

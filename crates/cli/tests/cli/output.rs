@@ -24,8 +24,8 @@ fn a_picture_without_a_name_replaces_nothing_unasked() {
 fn slips_of_the_finger_cost_nothing() {
     let desk = Desk::with("a.svg", SQUARE);
     desk.put("notes.txt", "a letter");
-    desk.run("render a.svg a.svg").failed(1, "a.svg: ", &["scene itself"]);
-    desk.run("render a.svg notes.txt").failed(1, "notes.txt: ", &["not a PNG"]);
+    desk.run("render a.svg a.svg").failed(1, "a.svg: ", &["it is what is read"]);
+    desk.run("render a.svg notes.txt").failed(1, "notes.txt: ", &["not a picture"]);
     desk.run("render a.svg none/b.png").failed(1, "none: ", &["folder"]);
     assert_eq!(fs::read_to_string(desk.path("a.svg")).unwrap(), SQUARE);
     assert_eq!(fs::read_to_string(desk.path("notes.txt")).unwrap(), "a letter");

@@ -12,7 +12,7 @@ mod slope;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use row::{AreaRow, GAP};
+pub(crate) use row::{AreaRow, GAP, eight_right};
 pub(crate) use slope::{Reach, Slope, eight_areas, eight_parts, extent, mirrored, splat, touched};
 
 /// Pixels that are summed side by side.

@@ -1,6 +1,6 @@
 //! The sums of one row of pixels.
 
-use super::{CHUNK, LANES, Reach, eight_areas, eight_parts, mirrored, splat, touched};
+use super::{CHUNK, LANES, Reach, eight_areas, eight_parts, mirrored, splat};
 use crate::AreaSink;
 use alloc::vec::Vec;
 use fearless_simd::{Simd, f64x8, prelude::*};
@@ -47,11 +47,6 @@ impl AreaRow {
         self.from = self.x0;
         self.base = base;
         (self.first, self.end) = (self.x0, self.x0);
-    }
-
-    /// Adds to all pixels, as long as no group has been ended.
-    pub(crate) fn add_left(&mut self, area: f64) {
-        self.base += area;
     }
 
     /// Makes room for edges that touch the pixels `first` to `last` (which may be off the clip):
@@ -102,12 +97,6 @@ impl AreaRow {
             sum.store_slice(cells);
             at += CHUNK;
         }
-    }
-
-    /// The first and the last pixel between two x, held to one beyond the clip.
-    #[inline(always)]
-    pub(crate) fn touched(&self, extent: [f64; 2]) -> (i32, i32) {
-        touched(extent, self.x0, self.x1)
     }
 
     /// Whether a group from pixel `first` on would be a new one.
@@ -177,7 +166,7 @@ impl AreaRow {
 
 /// What lies right of an edge in the eight pixels from `x` on, times `weight`.
 #[inline(always)]
-fn eight_right<S: Simd>(simd: S, x: i32, reach: &Reach, weight: f64) -> f64x8<S> {
+pub(crate) fn eight_right<S: Simd>(simd: S, x: i32, reach: &Reach, weight: f64) -> f64x8<S> {
     let ends = [reach.from, reach.to];
     let (sign, weighted) = (reach.sign, reach.sign * weight);
     let (height, half_rise) = (weighted * reach.height, weighted * reach.half_rise);

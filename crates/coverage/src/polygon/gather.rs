@@ -1,14 +1,57 @@
 //! What area coverage needs to know of a few rows of a clip: the edges that meet each of them, and
 //! the winding number at their left side.
 
-use super::area::Source;
+use super::steps::Steps;
+use super::strips::AreaEdge;
 use super::{Polygon, PolygonEdge};
+use crate::area::{Reach, Slope};
 use alloc::{vec, vec::Vec};
 use core::ops::Range;
-use scumble_geometry::IntRect;
 
 /// Rows that are looked at together: as many as the lowest band of the index has.
 pub(super) const ROWS: usize = 1 << super::bands::LEAST_SHIFT;
+
+/// An edge that crosses rows.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Source {
+    slope: Slope,
+    /// Heights in 1/256 pixel.
+    top: i32,
+    bottom: i32,
+    pub(super) winding: i32,
+}
+
+impl From<PolygonEdge> for Source {
+    #[inline(always)]
+    fn from(e: PolygonEdge) -> Self {
+        let slope = Slope::new(e.x0, e.y0, e.x1, e.y1);
+        Self { slope, top: e.y0, bottom: e.y1, winding: e.winding }
+    }
+}
+
+impl Source {
+    /// The heights between which it runs in row `y`, which it meets, in 1/256 pixel from the top of
+    /// the row.
+    #[inline(always)]
+    pub(super) fn within(&self, y: i32) -> (i32, i32) {
+        let top = y * 256;
+        (self.top.max(top) - top, self.bottom.min(top + 256) - top)
+    }
+
+    /// What there is of it in row `y` between two heights.
+    #[inline(always)]
+    pub(super) fn reach(&self, y: i32, (from, to): (i32, i32)) -> Reach {
+        let height = |within: i32| f64::from(y) + f64::from(within) * (1.0 / 256.0);
+        self.slope.reach(height(from), height(to))
+    }
+
+    /// What there is of it in row `y`.
+    #[inline(always)]
+    pub(super) fn area_edge(&self, y: i32) -> AreaEdge {
+        let (from, to) = self.within(y);
+        AreaEdge { slope: self.slope, winding: self.winding, from, to }
+    }
+}
 
 /// Edges that matter to a clip of up to [`ROWS`] rows.
 ///
@@ -40,14 +83,14 @@ impl Default for LeftSide {
 }
 
 impl Gathered {
-    /// Collects the edges for `clip`, which has no more than [`ROWS`] rows.
+    /// Collects the edges for a clip between two columns and two rows, no more than [`ROWS`].
     #[inline(always)]
-    pub(super) fn start(&mut self, polygon: &Polygon, clip: IntRect) {
+    pub(super) fn start(&mut self, polygon: &Polygon, (x0, x1): (i32, i32), (y0, y1): (i32, i32)) {
         self.edges.clear();
         self.rows.iter_mut().for_each(Vec::clear);
         self.left.clear();
-        let (top, bottom) = (clip.y0 * 256, clip.y1 * 256);
-        let columns = (clip.x0 * 256, clip.x1 * 256 - 1);
+        let (top, bottom) = (y0 * 256, y1 * 256);
+        let columns = (x0 * 256, x1 * 256 - 1);
         let Self { edges, rows, left } = self;
         polygon.bands.each_between((top, bottom), columns, left, |e| {
             let (from, to) = (e.y0.max(top) - top, e.y1.min(bottom) - top);
@@ -58,23 +101,18 @@ impl Gathered {
         });
     }
 
-    /// The change of the winding number at the top of a row, counted from the first; those strictly
-    /// inside it (height in 1/256 pixel from the row's top, change) are appended to `steps`.
+    /// Adds the changes of the winding number in a row, counted from the first.
     #[inline(always)]
-    pub(super) fn left_side(&self, row: usize, steps: &mut Vec<(i32, i32)>) -> i32 {
+    pub(super) fn left_side(&self, row: usize, steps: &mut Steps) {
         let Range { start, end } = row * 4..row * 4 + 4;
         for (word, &bits) in (start..end).zip(&self.left.marked[start..end]) {
-            let mut bits = if word == start { bits & !1 } else { bits };
+            let mut bits = bits;
             while bits != 0 {
                 let height = word * 64 + bits.trailing_zeros() as usize;
                 bits &= bits - 1;
-                let change = self.left.changes[height];
-                if change != 0 {
-                    steps.push(((height - row * 256) as i32, change));
-                }
+                steps.add((height - row * 256) as i32, self.left.changes[height]);
             }
         }
-        self.left.changes[row * 256]
     }
 }
 

@@ -2,10 +2,14 @@
 
 mod area;
 mod bands;
+mod calm;
+mod crowd;
 mod gather;
 mod rows;
 mod samples;
+mod steps;
 mod strips;
+mod sums;
 
 pub(crate) use rows::PolygonScratch;
 
@@ -177,9 +181,7 @@ impl Polygon {
     pub(crate) fn covers(&self, rect: IntRect) -> Cover {
         let (left, right) = (rect.x0 * 256, rect.x1 * 256 - 1);
         let (top, bottom) = (rect.y0 * 256, rect.y1 * 256);
-        let first = self.levels.partition_point(|l| l.y <= top);
-        let mut levels = self.levels[first..].iter().take_while(|l| l.y < bottom);
-        if levels.any(|l| l.left <= right && l.right > left) {
+        if self.levels_between(top, bottom).any(|l| l.left <= right && l.right > left) {
             return Cover::Partial;
         }
         let (mut winding, mut crossed) = (0, false);
@@ -199,6 +201,12 @@ impl Polygon {
             return Cover::Partial;
         }
         if self.is_inside(winding) { Cover::Full } else { Cover::None }
+    }
+
+    /// The level edges strictly between two heights (1/256 pixel).
+    fn levels_between(&self, top: i32, bottom: i32) -> impl Iterator<Item = &Level> {
+        let first = self.levels.partition_point(|l| l.y <= top);
+        self.levels[first..].iter().take_while(move |l| l.y < bottom)
     }
 
     /// How many edges cross rows.

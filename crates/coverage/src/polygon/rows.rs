@@ -1,11 +1,11 @@
 //! The edges of a clip, row of pixels by row of pixels, for sampled coverage.
 
 use super::{Polygon, PolygonEdge};
-use crate::area::AreaRow;
-use crate::polygon::area::{Crossings, Entered};
+use crate::polygon::area::Knots;
 use crate::polygon::gather::Gathered;
 use crate::polygon::samples::RowWinding;
-use crate::polygon::strips::Strips;
+use crate::polygon::steps::Steps;
+use crate::polygon::sums::RowSums;
 use alloc::vec::Vec;
 use scumble_geometry::IntRect;
 
@@ -15,11 +15,10 @@ pub(crate) struct PolygonScratch {
     pub(super) rows: Rows,
     pub(super) winding: RowWinding,
     pub(super) gathered: Gathered,
-    pub(super) entered: Entered,
-    pub(super) steps: Vec<(i32, i32)>,
-    pub(super) area: AreaRow,
-    pub(super) crossings: Crossings,
-    pub(super) strips: Strips,
+    /// The winding number at the left side of a row.
+    pub(super) left: Steps,
+    pub(super) sums: RowSums,
+    pub(super) knots: Knots,
 }
 
 /// The edges that matter to a clip, walked from the top.

@@ -3,6 +3,7 @@
 mod area;
 mod narrow;
 mod spans;
+mod squares;
 mod tiled;
 mod wide;
 

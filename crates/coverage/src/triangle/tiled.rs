@@ -8,6 +8,7 @@
 use super::Triangle;
 use super::narrow::Narrow;
 use super::spans;
+use super::squares;
 use super::wide::Wide;
 use crate::edge::Edge;
 use crate::{SampleMask, SamplePattern, Sink};
@@ -55,19 +56,23 @@ impl Triangle {
     }
 
     #[inline(always)]
-    fn rasterize_at<S: Simd>(
+    fn rasterize_at<S: Simd, K: Sink>(
         &self,
         simd: S,
         region: IntRect,
         pattern: &SamplePattern,
         scratch: &mut TriangleScratch,
-        sink: &mut impl Sink,
+        sink: &mut K,
     ) {
         let edges = self.edges();
+        let narrow = edges.iter().all(|e| e.a.abs() + e.b.abs() <= NARROW);
+        if K::SQUARES && narrow && squares::takes(pattern) {
+            return squares::rasterize(simd, &edges, region, pattern, sink);
+        }
         if pattern.len() <= spans::FEW {
             return spans::rasterize(simd, &edges, region, pattern, sink);
         }
-        if edges.iter().all(|e| e.a.abs() + e.b.abs() <= NARROW) {
+        if narrow {
             walk(&Narrow::new(simd, &edges, pattern, &mut scratch.narrow), &edges, region, sink);
         } else {
             walk(&Wide::new(&edges, pattern, &mut scratch.wide), &edges, region, sink);

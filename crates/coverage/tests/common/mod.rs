@@ -39,6 +39,31 @@ impl Sink for Collected {
     }
 }
 
+/// The same by squares of pixels, where they can come.
+pub(crate) struct BySquares(pub(crate) Collected);
+
+impl Sink for BySquares {
+    const SQUARES: bool = true;
+
+    fn block(&mut self, rect: IntRect) {
+        self.0.block(rect);
+    }
+    fn run(&mut self, y: i32, x0: i32, x1: i32) {
+        self.0.run(y, x0, x1);
+    }
+    fn pixel(&mut self, x: i32, y: i32, mask: SampleMask) {
+        self.0.pixel(x, y, mask);
+    }
+    fn whole(&mut self, x: i32, y: i32, pixels: u64) {
+        assert!(pixels != 0 && self.0.full == 1, "{pixels:x}");
+        self.0.whole(x, y, pixels);
+    }
+    fn parts(&mut self, x: i32, y: i32, rows: &[u32; 8]) {
+        assert!(*rows != [0; 8] && self.0.full == 15, "{rows:x?}");
+        self.0.parts(x, y, rows);
+    }
+}
+
 pub(crate) fn raster(shape: &Shape, clip: IntRect, pattern: &SamplePattern) -> Collected {
     let mut out = Collected::new(pattern);
     shape.rasterize(clip, pattern, &mut Scratch::new(), &mut out);

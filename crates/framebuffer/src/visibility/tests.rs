@@ -1,4 +1,5 @@
 use super::*;
+use crate::encode_row;
 use proptest::prelude::*;
 use scumble_pixel::WorkingSpace;
 use std::{vec, vec::Vec};
@@ -22,10 +23,17 @@ impl Naive {
     }
 }
 
+/// One and four have ways of their own.
+fn samples() -> impl Strategy<Value = u32> {
+    prop_oneof![Just(1_u32), Just(4), 1..=64_u32]
+}
+
 #[derive(Debug, Clone)]
 enum Op {
     Block(u32, u32, u32, u32, u32),
     Cover(u32, u32, u64, u32),
+    Pixels(u32, u32, u64, u32),
+    Square(u32, u32, [u32; 8], u32),
 }
 
 fn op() -> impl Strategy<Value = Op> {
@@ -34,8 +42,16 @@ fn op() -> impl Strategy<Value = Op> {
     prop_oneof![
         (0..9_u32, 0..9_u32, 0..9_u32, 0..9_u32, key.clone())
             .prop_map(|(x, y, w, h, k)| Op::Block(x, y, w, h, k)),
-        (0..9_u32, 0..9_u32, mask, key).prop_map(|(x, y, m, k)| Op::Cover(x, y, m, k)),
+        (0..9_u32, 0..9_u32, mask.clone(), key.clone())
+            .prop_map(|(x, y, m, k)| Op::Cover(x, y, m, k)),
+        (0..9_u32, 0..9_u32, mask, key.clone()).prop_map(|(x, y, m, k)| Op::Pixels(x, y, m, k)),
+        (0..9_u32, 0..9_u32, square(), key).prop_map(|(x, y, m, k)| Op::Square(x, y, m, k)),
     ]
+}
+
+/// Rows that are empty, full, or anything.
+fn square() -> impl Strategy<Value = [u32; 8]> {
+    prop::array::uniform8(prop_oneof![Just(0), Just(u32::MAX), any::<u32>(), 0..16_u32])
 }
 
 /// All samples of a row, as `row` tells them.
@@ -60,9 +76,17 @@ fn samples_of(tile: &Visibility, y: u32, samples: u32) -> Vec<u32> {
 const COLORS: [[f32; 4]; 4] =
     [[0.2, 0.3, 0.7, 1.0], [1.0, 0.0, 0.1, 1.0], [0.9, 0.9, 0.8, 1.0], [0.1, 0.2, 0.3, 0.4]];
 
+struct Colors;
+
+impl PixelColors for Colors {
+    fn at(&self, key: u32, _: usize) -> Premul {
+        COLORS.get(key as usize).map_or(Premul::TRANSPARENT, |&c| Premul(c))
+    }
+}
+
 /// Shading and encoding are the mean over samples of the definition.
 fn check_colours(tile: &Visibility, naive: &Naive) -> Result<(), TestCaseError> {
-    let color = |key: u32| COLORS.get(key as usize).map_or(Premul::TRANSPARENT, |&c| Premul(c));
+    let color = |key: u32| Colors.at(key, 0);
     for space in [WorkingSpace::Srgb, WorkingSpace::Linear] {
         let mut palette = Palette::new(space);
         COLORS.iter().for_each(|&c| palette.push(Premul(c)));
@@ -73,6 +97,9 @@ fn check_colours(tile: &Visibility, naive: &Naive) -> Result<(), TestCaseError> 
             let pixels: Vec<Premul> = samples.chunks(naive.samples as usize).map(mean).collect();
             let mut shaded = vec![Premul::TRANSPARENT; naive.width as usize];
             tile.shade_row(y, &mut shaded, |key, _, out| out.fill(color(key)));
+            prop_assert_eq!(&shaded, &pixels);
+            shaded.fill(Premul::TRANSPARENT);
+            tile.shade_pixels(y, &mut shaded, &Colors);
             prop_assert_eq!(&shaded, &pixels);
             let mut codes = vec![[9; 4]; naive.width as usize];
             tile.encode_row(y, &palette, &mut codes);
@@ -87,7 +114,7 @@ proptest! {
     #[test]
     fn it_sees_what_came_last(
         runs in prop::collection::vec(
-            (1..8_u32, 1..8_u32, 1..=64_u32, 0..3_u32, prop::collection::vec(op(), 0..40)), 1..3),
+            (1..8_u32, 1..8_u32, samples(), 0..3_u32, prop::collection::vec(op(), 0..40)), 1..3),
     ) {
         // Several in one tile, so that what an earlier one left behind would show.
         let mut tile = Visibility::new();
@@ -113,6 +140,20 @@ proptest! {
                         tile.cover(x, y, mask, key);
                         naive.set(x, y, mask, key);
                     }
+                    Op::Pixels(x, y, pixels, key) => {
+                        tile.fill_pixels(x, y, pixels, key);
+                        for (i, r, c) in (0..64).map(|i| (i, i / 8, i % 8)) {
+                            let mask = if pixels >> i & 1 == 1 { u64::MAX } else { 0 };
+                            naive.set(x + c, y + r, mask, key);
+                        }
+                    }
+                    Op::Square(x, y, rows, key) => {
+                        tile.cover_square(x, y, &rows, key);
+                        for (r, c) in (0..8).flat_map(|r| (0..8).map(move |c| (r, c))) {
+                            let mask = if samples == 4 { rows[r] >> (4 * c) & 15 } else { 0 };
+                            naive.set(x + c, y + r as u32, u64::from(mask), key);
+                        }
+                    }
                 }
             }
             let row = (width * samples) as usize;
@@ -123,6 +164,31 @@ proptest! {
             check_colours(&tile, &naive)?;
             prop_assert_eq!(tile.row(height).count(), 0);
             prop_assert_eq!(tile.row(u32::MAX).count(), 0);
+        }
+    }
+}
+
+proptest! {
+    /// Every level gives the keys of the plain loops, whatever lies in the tile.
+    #[test]
+    fn squares_are_their_definition(
+        keys in prop::collection::vec(prop_oneof![0..3_u32, Just(MIXED)], 90),
+        mixed in prop::collection::vec(prop::array::uniform4(0..3_u32), 90),
+        stride in 8..12_usize,
+        (pixels, samples, key) in (any::<u64>(), square(), 0..3_u32),
+    ) {
+        let with = |draw: &dyn Fn(&mut Rows<'_>)| {
+            let (mut keys, mut mixed) = (keys.clone(), mixed.clone());
+            draw(&mut Rows { keys: &mut keys, mixed: &mut mixed, stride });
+            // What a pixel that is not mixed holds beside its key means nothing.
+            let seen = keys.iter().zip(mixed);
+            seen.map(|(&key, of)| (key, (key == MIXED).then_some(of))).collect::<Vec<_>>()
+        };
+        let filled = with(&|rows| rows.fill(pixels, key));
+        let covered = with(&|rows| rows.cover(&samples, key));
+        for level in [fearless_simd::Level::baseline(), fearless_simd::Level::new()] {
+            prop_assert_eq!(&with(&|rows| rows.fill_by(level, pixels, key)), &filled);
+            prop_assert_eq!(&with(&|rows| rows.cover_by(level, &samples, key)), &covered);
         }
     }
 }

@@ -7,13 +7,14 @@ mod plot;
 mod sources;
 mod speed;
 mod study;
-mod warps;
+pub(crate) mod warps;
 
 use crate::Asset;
 use scumble::texture::TextureError;
 use scumble_geometry::GeometryError;
 
 pub use page::{Report, measure};
+pub(crate) use sources::{SIZE, SOURCES, Source};
 pub use speed::times;
 
 /// Why the filters could not be judged.

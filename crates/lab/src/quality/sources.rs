@@ -4,6 +4,7 @@ use crate::canvas::Canvas;
 use crate::math::{cos, fract, hash, octaves, random, turns};
 use crate::textures::inked;
 use scumble::texture::{Texture, TextureError, TextureOptions};
+use scumble_pixel::Image;
 use std::f64::consts::{PI, TAU};
 
 /// Texels along each side.
@@ -28,9 +29,19 @@ pub(crate) const SOURCES: [Source; 6] = [
 ];
 
 impl Source {
+    /// The image, to be written.
+    pub(crate) fn canvas(&self) -> Canvas {
+        (self.draw)()
+    }
+
+    /// The image.
+    pub(crate) fn image(&self) -> Image<[u8; 4]> {
+        self.canvas().into_image()
+    }
+
     /// The image as a texture whose numbers are the encoded values.
     pub(crate) fn texture(&self) -> Result<Texture, TextureError> {
-        Texture::new((self.draw)().into_image().view(), &TextureOptions::default())
+        Texture::new(self.image().view(), &TextureOptions::default())
     }
 }
 

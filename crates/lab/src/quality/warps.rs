@@ -32,6 +32,20 @@ fn ground() -> Homography {
     Homography::new([row(-1.0), row(1.0), [0.0, 1.0, -horizon]])
 }
 
+/// The map of [`with_enlargement`] that enlarges.
+pub(crate) const ENLARGEMENT: usize = 3;
+
+/// The maps of [`all`], and then one five times up, turned by −15°.
+pub(crate) fn with_enlargement() -> Result<[Homography; 4], GeometryError> {
+    let [ground, keystone, turned] = all()?;
+    // The cosine and the sine of 15°, a fifth of each.
+    let (c, s) = ((6.0f64.sqrt() + 2.0f64.sqrt()) / 20.0, (6.0f64.sqrt() - 2.0f64.sqrt()) / 20.0);
+    let (x, y) = ((WIDTH / 2) as f64, (HEIGHT / 2) as f64);
+    let row = |a: f64, b: f64, middle: f64| [a, b, middle - a * x - b * y];
+    let enlarged = Homography::new([row(c, -s, 900.0), row(s, c, 820.0), [0.0, 0.0, 1.0]]);
+    Ok([ground, keystone, turned, enlarged])
+}
+
 fn keystone() -> Result<Homography, GeometryError> {
     let n = SIZE as f64;
     let source = [(0.0, 0.0), (n, 0.0), (n, n), (0.0, n)];

@@ -1,0 +1,246 @@
+//! The programs, and how each is asked to warp.
+
+use super::PeersError;
+use crate::quality::{SIZE, Source, warps};
+use crate::timing::clock;
+use scumble::texture::{Decimation, Texture, TextureOptions};
+use scumble_geometry::Homography;
+use scumble_pixel::{Image, WorkingSpace};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Where the programs are.
+#[derive(Debug, Clone)]
+pub struct Programs {
+    /// Our command.
+    pub scumble: PathBuf,
+    /// A Python that may know OpenCV.
+    pub python: PathBuf,
+    /// ImageMagick's command.
+    pub magick: PathBuf,
+}
+
+/// One way of one program.
+#[derive(Debug)]
+pub(super) struct Contender {
+    pub(super) name: &'static str,
+    how: How,
+}
+
+#[derive(Debug)]
+enum How {
+    /// Arguments to `scumble warp`.
+    Scumble(&'static [&'static str]),
+    /// The method of the script.
+    OpenCv(&'static str),
+    /// The filter's name.
+    Magick(&'static str),
+}
+
+const fn contender(name: &'static str, how: How) -> Contender {
+    Contender { name, how }
+}
+
+/// Those that make a picture smaller.
+static REDUCERS: [Contender; 7] = [
+    contender("`fast`", How::Scumble(&["--quality", "fast"])),
+    contender("`default`", How::Scumble(&["--quality", "default"])),
+    contender("`high`", How::Scumble(&["--quality", "high"])),
+    contender("OpenCV linear", How::OpenCv("linear")),
+    contender("OpenCV 3×3, Gaussian weights", How::OpenCv("gaussian:3")),
+    contender("OpenCV 4×4, Gaussian weights", How::OpenCv("gaussian:4")),
+    contender("ImageMagick Gaussian", How::Magick("Gaussian")),
+];
+
+/// Those that make it larger.
+static ENLARGERS: [Contender; 6] = [
+    contender("`default`", How::Scumble(&["--quality", "default"])),
+    contender("`--magnify bilinear`", How::Scumble(&["--magnify", "bilinear"])),
+    contender("`--magnify catmull-rom`", How::Scumble(&["--magnify", "catmull-rom"])),
+    contender("OpenCV linear", How::OpenCv("linear")),
+    contender("OpenCV cubic", How::OpenCv("cubic")),
+    contender("ImageMagick Gaussian", How::Magick("Gaussian")),
+];
+
+/// Those that compete under a map.
+pub(super) fn field(map: usize) -> &'static [Contender] {
+    if map == warps::ENLARGEMENT { &ENLARGERS } else { &REDUCERS }
+}
+
+/// A task.
+pub(super) struct Work<'a> {
+    /// The image's name.
+    pub(super) source: &'static str,
+    /// From the output to the source.
+    pub(super) map: &'a Homography,
+    pub(super) scratch: &'a Path,
+}
+
+/// What came of it.
+pub(super) enum Outcome {
+    Done {
+        ms: f64,
+        /// RGB8, row after row.
+        pixels: Vec<u8>,
+    },
+    /// The program is not there, or failed; why.
+    Absent(String),
+}
+
+/// Writes an image as a PNG and as bare bytes.
+pub(super) fn lay_out(source: &Source, scratch: &Path) -> Result<(), PeersError> {
+    let canvas = source.canvas();
+    let png = canvas.to_png().map_err(crate::quality::QualityError::from)?;
+    let raw: Vec<u8> =
+        canvas.into_image().pixels().iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
+    for (ending, bytes) in [("png", png), ("rgb", raw)] {
+        let path = file(scratch, source.name, ending);
+        std::fs::write(&path, bytes).map_err(|error| PeersError::File { path, error })?;
+    }
+    Ok(())
+}
+
+fn file(scratch: &Path, name: &str, ending: &str) -> PathBuf {
+    scratch.join(format!("{}.{ending}", name.replace(' ', "-")))
+}
+
+impl Contender {
+    /// The name of the program.
+    pub(super) fn program(&self) -> &'static str {
+        match self.how {
+            How::Scumble(_) => "scumble",
+            How::OpenCv(_) => "OpenCV",
+            How::Magick(_) => "ImageMagick",
+        }
+    }
+
+    /// Warps once.
+    pub(super) fn run(&self, programs: &Programs, work: &Work) -> Result<Outcome, PeersError> {
+        match self.how {
+            How::Scumble(args) => ours(&programs.scumble, args, work).map_err(PeersError::Ours),
+            How::OpenCv(method) => Ok(tried(opencv(&programs.python, method, work))),
+            How::Magick(filter) => Ok(tried(magick(&programs.magick, filter, work))),
+        }
+    }
+}
+
+fn tried(result: Result<Outcome, String>) -> Outcome {
+    result.unwrap_or_else(Outcome::Absent)
+}
+
+/// Runs a command; what it printed, or the last line that it complained with.
+fn output(command: &mut Command) -> Result<String, String> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    let output = command.output().map_err(|e| format!("{name}: {e}"))?;
+    if output.status.success() {
+        return Ok(String::from_utf8_lossy(&output.stdout).into_owned());
+    }
+    let said = String::from_utf8_lossy(&output.stderr);
+    Err(format!("{name}: {}", said.trim().lines().last().unwrap_or("failed")))
+}
+
+fn coefficients(map: &Homography) -> [f64; 9] {
+    std::array::from_fn(|i| map.m[i / 3][i % 3])
+}
+
+fn ours(program: &Path, args: &[&str], work: &Work) -> Result<Outcome, String> {
+    let out = work.scratch.join("ours.png");
+    let matrix = coefficients(work.map).map(|v| v.to_string()).join(",");
+    let said = output(
+        Command::new(program)
+            .arg("warp")
+            .arg(file(work.scratch, work.source, "png"))
+            .arg("-o")
+            .arg(&out)
+            .args(["--matrix", &matrix, "--inverse"])
+            .args(["--size", &format!("{}x{}", warps::WIDTH, warps::HEIGHT)])
+            .args(["--space", "srgb", "--border", "clamp", "--threads", "1"])
+            .args(["--json", "--force"])
+            .args(args),
+    )?;
+    let report: Value = serde_json::from_str(&said).map_err(|e| e.to_string())?;
+    let ms = report["warp_ms"].as_f64().ok_or("no warp_ms in the report")?;
+    Ok(Outcome::Done { ms, pixels: pixels(&out)? })
+}
+
+/// The RGB8 of a picture.
+fn pixels(path: &Path) -> Result<Vec<u8>, String> {
+    Ok(image::open(path).map_err(|e| e.to_string())?.into_rgb8().into_raw())
+}
+
+/// The script that speaks to OpenCV.
+const SCRIPT: &str = include_str!("opencv.py");
+
+fn opencv(python: &Path, method: &str, work: &Work) -> Result<Outcome, String> {
+    let out = work.scratch.join("opencv.rgb");
+    let [size, width, height] = [SIZE, warps::WIDTH, warps::HEIGHT].map(|n| n.to_string());
+    let said = output(
+        Command::new(python)
+            .args(["-c", SCRIPT, method, &size])
+            .arg(file(work.scratch, work.source, "rgb"))
+            .args([width, height])
+            .args(coefficients(work.map).map(|v| v.to_string()))
+            .arg(&out),
+    )?;
+    let ms = said.trim().parse().map_err(|_| format!("said {said:?}"))?;
+    Ok(Outcome::Done { ms, pixels: std::fs::read(&out).map_err(|e| e.to_string())? })
+}
+
+fn magick(program: &Path, filter: &str, work: &Work) -> Result<Outcome, String> {
+    let out = work.scratch.join("magick.png");
+    let forward = work.map.inverse().map_err(|e| e.to_string())?;
+    let m = coefficients(&forward);
+    let eight = m[..8].iter().map(|v| (v / m[8]).to_string()).collect::<Vec<_>>().join(",");
+    let command = |distort: bool| {
+        let mut command = Command::new(program);
+        command.env("MAGICK_THREAD_LIMIT", "1").env("OMP_NUM_THREADS", "1");
+        command.arg(file(work.scratch, work.source, "png"));
+        if distort {
+            let view = format!("distort:viewport={}x{}+0+0", warps::WIDTH, warps::HEIGHT);
+            command.args(["-virtual-pixel", "edge", "-define", &view, "-filter", filter]);
+            command.args(["-distort", "PerspectiveProjection", &eight, "+repage"]);
+        } else {
+            command.args(["-crop", &format!("{}x{}+0+0", warps::WIDTH, warps::HEIGHT), "+repage"]);
+        }
+        command.args(["-define", "png:compression-level=1"]).arg(&out);
+        command
+    };
+    // It has no clock of its own: what reading and writing alone take is taken off.
+    let around = clock(|| output(&mut command(false)))?;
+    let whole = clock(|| output(&mut command(true)))?;
+    Ok(Outcome::Done { ms: whole - around, pixels: pixels(&out)? })
+}
+
+/// Texels along each side of the texture whose pyramid is timed.
+const LARGE: usize = 4096;
+
+/// Pyramids of a texture of 4096² RGBA8: names, and the times of each round.
+pub(super) fn mips(
+    programs: &Programs,
+    rounds: usize,
+) -> Result<Vec<(&'static str, Vec<f64>)>, PeersError> {
+    let image = Image::from_fn(LARGE, LARGE, |x, y| {
+        let n = (4 * (y * LARGE + x)) as u32;
+        [0, 1, 2, 3].map(|i| (n + i) as u8)
+    })
+    .map_err(|e| PeersError::Ours(e.to_string()))?;
+    let ours = |decimation, space| {
+        let options = TextureOptions { decimation, space, ..TextureOptions::default() };
+        clock(|| Texture::new(image.view(), &options)).map_err(|e| PeersError::Ours(e.to_string()))
+    };
+    let mut rows = vec![
+        ("ours, box, encoded", Vec::new()),
+        ("ours, Kaiser, linear light", Vec::new()),
+        ("OpenCV `INTER_AREA`, encoded", Vec::new()),
+    ];
+    for _ in 0..rounds {
+        rows[0].1.push(ours(Decimation::Box, WorkingSpace::Srgb)?);
+        rows[1].1.push(ours(Decimation::Kaiser, WorkingSpace::Linear)?);
+        let mut command = Command::new(&programs.python);
+        let said = output(command.args(["-c", SCRIPT, "mips", &LARGE.to_string()]));
+        rows[2].1.extend(said.ok().and_then(|s| s.trim().parse::<f64>().ok()));
+    }
+    rows.retain(|(_, times)| !times.is_empty());
+    Ok(rows)
+}
