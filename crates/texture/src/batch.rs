@@ -3,20 +3,20 @@
 //! The formulas are those of single samples, called in loops over arrays that hold no branch and no
 //! call, so that the compiler makes vectors of them. What is rare is redone one by one.
 
+use crate::abreast::{ABREAST, ALONE, IDLE, Sheet, Walks};
 use crate::covariance::Covariance;
-use crate::engine::{Engine, Job};
+use crate::engine::Engine;
 use crate::ewa::{Limits, auto_pick, walk_in};
 use crate::level::Frame;
 use crate::lod::Pick;
 use crate::point::lerp;
 use crate::texture::into_range;
 use crate::walk::Walk;
-use crate::walk_simd::Scratch;
 use crate::{Footprint, Texture};
 use scumble_pixel::Premul;
 
 /// Pixels set up together.
-const BATCH: usize = 16;
+const BATCH: usize = ABREAST;
 
 /// Pixels from which on a batch is quicker than one by one.
 pub(crate) const WORTH: usize = 4;
@@ -42,26 +42,8 @@ struct Chosen {
     pick: [Pick; BATCH],
     /// Whether all read the same.
     same: bool,
-}
-
-/// [`Walk`]s, by field.
-#[derive(Default)]
-struct Walks {
-    x0: [i32; BATCH],
-    y0: [i32; BATCH],
-    fx: [f32; BATCH],
-    fy: [f32; BATCH],
-    first: [i32; BATCH],
-    blocks: [i32; BATCH],
-    groups: [i32; BATCH],
-    run: [f32; BATCH],
-    slope: [f32; BATCH],
-    row_scale: [f32; BATCH],
-    run_scale: [f32; BATCH],
-    inside: [i32; BATCH],
-    small: [i32; BATCH],
-    /// 1 where the ellipse needs mending, else 0.
-    rare: [i32; BATCH],
+    /// Whether one blends two.
+    blends: bool,
 }
 
 /// Samples a run of footprints with the level chosen by the ellipse.
@@ -73,75 +55,37 @@ pub(crate) fn fill(
     limits: &Limits,
     out: &mut [Premul],
 ) {
-    let mut scratch = Scratch::default();
-    let mut jobs = [Job::default(); 2 * BATCH];
-    let mut colors = [[0.0; 4]; 2 * BATCH];
+    let mut sheet = Sheet::default();
     for (chunk, out) in out.chunks_mut(BATCH).enumerate() {
         let first = chunk * BATCH;
+        // Beyond the end, the last again.
+        let last = out.len() - 1;
         let ellipses = Ellipses::new(
             t,
             limits,
             #[inline(always)]
-            |i| at(first + i),
+            |i| at(first + i.min(last)),
         );
         let chosen = Chosen::new(t, &ellipses, limits);
-        // To collect the frames of several levels takes longer than all the rest.
-        let frame = |i: usize| &t.levels[chosen.pick[i].level].frame;
-        let walks = if chosen.same {
-            let frame = *frame(0);
-            Walks::new(&ellipses, |_| &frame, limits)
-        } else {
-            Walks::new(&ellipses, frame, limits)
-        };
-        let count = list(t, &ellipses, &chosen, &walks, limits, &mut jobs[..], out.len());
-        engine.walk_all(t, &jobs[..count], &mut scratch, &mut colors[..count]);
-        let mut colors = colors.iter();
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = if ellipses.usable[i] == 0 {
-                t.average()
-            } else {
-                let mut next = || colors.next().copied().unwrap_or_default();
-                let fine = next();
-                let coarser = chosen.pick[i].coarser;
-                into_range(if coarser > 0.0 { lerp(fine, next(), coarser) } else { fine })
-            };
+        let wanted = |i: usize| (i <= last) & (ellipses.usable[i] != 0);
+        let mut colors = [[0.0; 4]; BATCH];
+        let mut walks = chosen.walks(t, &ellipses, limits, 0, wanted);
+        engine.walk_all(t, &walks, &mut sheet, &mut colors);
+        if chosen.blends {
+            let mut coarser = [[0.0; 4]; BATCH];
+            let blends = |i: usize| wanted(i) & (chosen.pick[i].coarser > 0.0);
+            walks = chosen.walks(t, &ellipses, limits, 1, blends);
+            engine.walk_all(t, &walks, &mut sheet, &mut coarser);
+            for ((color, next), pick) in colors.iter_mut().zip(coarser).zip(&chosen.pick) {
+                if pick.coarser > 0.0 {
+                    *color = lerp(*color, next, pick.coarser);
+                }
+            }
+        }
+        for ((out, color), usable) in out.iter_mut().zip(colors).zip(ellipses.usable) {
+            *out = if usable == 0 { t.average() } else { into_range(color) };
         }
     }
-}
-
-/// The walks of the first `pixels` pixels: none for the unusable, two for those that blend. Returns
-/// how many.
-#[inline(always)]
-fn list(
-    t: &Texture,
-    ellipses: &Ellipses,
-    chosen: &Chosen,
-    walks: &Walks,
-    limits: &Limits,
-    jobs: &mut [Job],
-    pixels: usize,
-) -> usize {
-    let mut count = 0;
-    for i in (0..pixels).filter(|i| ellipses.usable[*i] != 0) {
-        let Pick { level, coarser } = chosen.pick[i];
-        let alone = |level: usize| {
-            let sigma = ellipses.get(i).at_level(&t.levels[level].frame);
-            walk_in(t, level, ellipses.u[i], ellipses.v[i], sigma, limits)
-        };
-        let job = &mut jobs[count];
-        job.level = level;
-        if walks.rare[i] == 0 {
-            walks.put(i, limits, &mut job.walk);
-        } else {
-            job.walk = alone(level);
-        }
-        count += 1;
-        if coarser > 0.0 {
-            jobs[count] = Job { level: level + 1, walk: alone(level + 1) };
-            count += 1;
-        }
-    }
-    count
 }
 
 impl Ellipses {
@@ -178,53 +122,67 @@ impl Chosen {
         }
         for pick in &chosen.pick {
             chosen.same &= pick.level == chosen.pick[0].level;
+            chosen.blends |= pick.coarser > 0.0;
         }
         chosen
     }
+
+    /// The walks in the chosen levels, or so many levels on, of those that are wanted.
+    #[inline(always)]
+    fn walks(
+        &self,
+        t: &Texture,
+        e: &Ellipses,
+        limits: &Limits,
+        on: usize,
+        wanted: impl Fn(usize) -> bool,
+    ) -> Walks {
+        let last = t.levels.len() - 1;
+        let level = |i: usize| &t.levels[(self.pick[i].level + on).min(last)];
+        // To collect the frames of several levels takes longer than all the rest.
+        let mut walks = Walks { cut: limits.cut, ..Walks::default() };
+        let mut rare = [0; BATCH];
+        if self.same {
+            let frame = level(0).frame;
+            fill_walks(e, |_| &frame, limits, &mut walks, &mut rare);
+        } else {
+            fill_walks(e, |i| &level(i).frame, limits, &mut walks, &mut rare);
+        }
+        for (i, rare) in rare.into_iter().enumerate() {
+            let level = level(i);
+            walks.stride[i] = level.stride as i32;
+            walks.base[i] = level.base;
+            [walks.mask_x[i], walks.mask_y[i]] = level.mask;
+            walks.level[i] = (self.pick[i].level + on).min(last) as u32;
+            if !wanted(i) {
+                walks.how[i] = IDLE;
+            } else if rare != 0 {
+                let sigma = e.get(i).at_level(&level.frame);
+                let index = walks.level[i] as usize;
+                let walk = walk_in(t, index, e.u[i], e.v[i], sigma, limits);
+                walks.set(i, &walk);
+                walks.how[i] = ALONE + walk.inside;
+            }
+        }
+        walks
+    }
 }
 
-impl Walks {
-    #[inline(always)]
-    fn new<'a>(e: &Ellipses, frame: impl Fn(usize) -> &'a Frame, limits: &Limits) -> Self {
-        let mut o = Self::default();
-        for i in 0..BATCH {
-            let frame = frame(i);
-            let sigma = e.get(i).at_level(frame);
-            let w = Walk::new(e.u[i], e.v[i], frame, &sigma, limits);
-            o.x0[i] = w.x0;
-            o.y0[i] = w.y0;
-            o.fx[i] = w.fx;
-            o.fy[i] = w.fy;
-            o.first[i] = w.first;
-            o.blocks[i] = w.blocks;
-            o.groups[i] = w.groups;
-            o.run[i] = w.run;
-            o.slope[i] = w.slope;
-            o.row_scale[i] = w.row_scale;
-            o.run_scale[i] = w.run_scale;
-            o.inside[i] = w.inside;
-            o.small[i] = w.small;
-            o.rare[i] = i32::from(sigma.needs_mending(frame, limits));
-        }
-        o
-    }
-
-    /// Field by field: a copy of the whole would wait for the fields' stores.
-    #[inline(always)]
-    fn put(&self, i: usize, limits: &Limits, w: &mut Walk) {
-        w.x0 = self.x0[i];
-        w.y0 = self.y0[i];
-        w.fx = self.fx[i];
-        w.fy = self.fy[i];
-        w.first = self.first[i];
-        w.blocks = self.blocks[i];
-        w.groups = self.groups[i];
-        w.run = self.run[i];
-        w.slope = self.slope[i];
-        w.row_scale = self.row_scale[i];
-        w.run_scale = self.run_scale[i];
-        w.cut = limits.cut;
-        w.inside = self.inside[i];
-        w.small = self.small[i];
+/// The walks over all the ellipses, and 1 for those that need mending.
+#[inline(always)]
+fn fill_walks<'a>(
+    e: &Ellipses,
+    frame: impl Fn(usize) -> &'a Frame,
+    limits: &Limits,
+    o: &mut Walks,
+    rare: &mut [i32; BATCH],
+) {
+    for (i, rare) in rare.iter_mut().enumerate() {
+        let frame = frame(i);
+        let sigma = e.get(i).at_level(frame);
+        let w = Walk::new(e.u[i], e.v[i], frame, &sigma, limits);
+        o.set(i, &w);
+        o.how[i] = ALONE + w.inside;
+        *rare = i32::from(sigma.needs_mending(frame, limits));
     }
 }

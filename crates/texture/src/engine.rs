@@ -1,8 +1,8 @@
+use crate::abreast::{ABREAST, IDLE, Sheet, Walks};
 use crate::level::Level;
 use crate::point;
 use crate::texel::Texel;
 use crate::walk::Walk;
-use crate::walk_simd::Scratch;
 use crate::{Texture, Wrap};
 use fearless_simd::{Simd, f32x8, i16x8, prelude::*};
 
@@ -14,15 +14,8 @@ pub(crate) trait Engine: Copy {
     /// The bilinear mean of two rows of two texels, in steps.
     fn bilinear(self, top: &[Texel; 2], bottom: &[Texel; 2], fx: f32, fy: f32) -> [f32; 4];
 
-    /// Many walks.
-    fn walk_all(self, t: &Texture, jobs: &[Job], scratch: &mut Scratch, out: &mut [[f32; 4]]);
-}
-
-/// A walk in a level.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Job {
-    pub(crate) level: usize,
-    pub(crate) walk: Walk,
+    /// Sixteen walks, of those that are not idle.
+    fn walk_all(self, t: &Texture, walks: &Walks, sheet: &mut Sheet, out: &mut [[f32; 4]; ABREAST]);
 }
 
 /// The definition.
@@ -44,9 +37,9 @@ impl Engine for Scalar {
         point::bilinear(top, bottom, fx, fy)
     }
 
-    fn walk_all(self, t: &Texture, jobs: &[Job], _: &mut Scratch, out: &mut [[f32; 4]]) {
-        for (job, out) in jobs.iter().zip(out) {
-            *out = self.walk(&t.levels[job.level], t.wrap, &job.walk);
+    fn walk_all(self, t: &Texture, walks: &Walks, _: &mut Sheet, out: &mut [[f32; 4]; ABREAST]) {
+        for i in (0..ABREAST).filter(|i| walks.how[*i] != IDLE) {
+            out[i] = self.walk(&t.levels[walks.level[i] as usize], t.wrap, &walks.get(i));
         }
     }
 }
@@ -69,10 +62,16 @@ impl<S: Simd> Engine for Vector<S> {
     }
 
     #[inline(always)]
-    fn walk_all(self, t: &Texture, jobs: &[Job], scratch: &mut Scratch, out: &mut [[f32; 4]]) {
+    fn walk_all(
+        self,
+        t: &Texture,
+        walks: &Walks,
+        sheet: &mut Sheet,
+        out: &mut [[f32; 4]; ABREAST],
+    ) {
         self.0.vectorize(
             #[inline(always)]
-            || crate::walk_simd::walk_all(self.0, t, jobs, scratch, out),
+            || crate::abreast::walk_all(self.0, t, walks, sheet, out),
         );
     }
 }

@@ -24,16 +24,22 @@ pub(crate) fn weight(z: f32) -> i32 {
     (p4 * p4 + ROUNDER).to_bits() as i32 - ROUNDER.to_bits() as i32
 }
 
-/// [`weight`] at sixteen exponents, and 0 where they are above `cut`.
+/// [`weight`] at sixteen exponents, and 0 where they are above `cut`: in the low halves of the lanes.
 #[inline(always)]
-pub(crate) fn weights<S: Simd>(simd: S, z: f32x16<S>, cut: f32) -> i16x16<S> {
+pub(crate) fn weight_bits<S: Simd>(simd: S, z: f32x16<S>, cut: f32x16<S>) -> i32x16<S> {
     let c = |k: usize| f32x16::splat(simd, C[k]);
     let p = c(0) - z * (c(1) - z * (c(2) - z));
     let p2 = p * p;
     let p4 = p2 * p2;
     let weight = z.simd_le(cut).select(p4 * p4, f32x16::splat(simd, 0.0));
     // The rounder has nothing in the low half of its bits.
-    let bits = (weight + ROUNDER).bitcast::<i32x16<S>>();
+    (weight + ROUNDER).bitcast::<i32x16<S>>()
+}
+
+/// The same, without what is above them.
+#[inline(always)]
+pub(crate) fn weights<S: Simd>(simd: S, z: f32x16<S>, cut: f32) -> i16x16<S> {
+    let bits = weight_bits(simd, z, f32x16::splat(simd, cut));
     let (low, _) = bits.narrow(bits).split();
     low
 }

@@ -23,7 +23,7 @@
 //! the pyramid's own blur subtracted.
 //!
 //! An ellipse holds at most π·R²·4s²·a texels (R the radius, s the least σ, a the largest axis ratio)
-//! or 16,384, whichever is more. It is read in blocks of 4×4, so count up to five times that for the
+//! or 16,384, whichever is more. Its rows are read in quads of texels, so count up to five times that for the
 //! thinnest, and the same again where two levels blend. Where no coarser level can bring an ellipse
 //! within that (level zero asked for; no pyramid), it is shrunk to it, and aliases.
 //!
@@ -34,9 +34,9 @@
 //! | bilinear, two levels (trilinear) | 24 / 29 / 29 | 5 |
 //! | [`Sampler::CLASSIC`]: the method of 2009, for comparison | 26 / 31 / 29 | |
 //! | [`PixelFilter::Probes`], as hardware does it but along the true axis | 40 / 33 / 29 | |
-//! | [`Sampler::FAST`]: previews, video | 34 / 40 / 30 | 42 |
-//! | [`Sampler::DEFAULT`]: everything | 36 / 40 / 50 | 74 |
-//! | [`Sampler::HIGH`]: print, masters | 47 / 52 / 50 | 108 |
+//! | [`Sampler::FAST`]: previews, video | 34 / 40 / 30 | 29 |
+//! | [`Sampler::DEFAULT`]: everything | 36 / 40 / 50 | 57 |
+//! | [`Sampler::HIGH`]: print, masters | 47 / 52 / 50 | 93 |
 //! | [`Sampler::REFERENCE`]: truth for tests | 46 / 74 / 83 | 150 |
 //!
 //! PSNR against a brute-force Gaussian pixel on a checkerboard, a zone plate, strokes like text and
@@ -71,9 +71,9 @@
 //! - Only what is asked for is made and kept: [`Levels`] says which levels, [`TextureOptions::window`]
 //!   which part of the image, and [`TextureBuilder`] takes rows as a decoder yields them.
 //! - A pixel of the ground plane, on one core of a server (Zen 4, 512-bit vectors) by
-//!   [`Texture::sample_row`]: nearest 5 ns, bilinear 10, trilinear 14, [`Sampler::FAST`] 58,
-//!   [`Sampler::DEFAULT`] 84, of which 15 to 20 are set-up; every texel that an ellipse reads takes about
-//!   one more. [`Texture::sample`] sets up one pixel at a time and is slower; runs of four and more
+//!   [`Texture::sample_row`]: nearest 5 ns, bilinear 10, trilinear 14, [`Sampler::FAST`] 49,
+//!   [`Sampler::DEFAULT`] 75, of which some 15 are set-up; every texel that an ellipse reads takes
+//!   0.7 to 1 more. [`Texture::sample`] sets up one pixel at a time and is slower; runs of four and more
 //!   pixels are worth a row.
 //! - A pyramid takes about as long to make as fresh memory from the system does: [`Texture::renewed`]
 //!   makes one in the memory of another.
@@ -107,6 +107,7 @@
 
 extern crate alloc;
 
+mod abreast;
 mod batch;
 mod builder;
 mod classic;

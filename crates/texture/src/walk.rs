@@ -1,4 +1,4 @@
-//! The walk over an ellipse: rows of texels, runs of [`LANES`] in each. Here as a definition, in
+//! The walk over an ellipse: rows of texels, quads of [`LANES`] in each. Here as a definition, in
 //! scalar code; `walk_simd` is the same in vectors.
 
 use crate::Wrap;
@@ -10,8 +10,7 @@ use crate::math::{floor, floor32, sqrt32, whole};
 use crate::pyramid::plan::Span;
 use crate::texel::{STEP, Texel, of_color};
 
-/// Rows walked together, and texels of each. Their weights are one vector of sixteen floats, and most
-/// rows of most ellipses hold no more than four.
+/// Texels of a row that are read in one piece: a quad.
 pub(crate) const LANES: usize = 4;
 
 /// The determinant up to which an ellipse is [`Walk::small`]. On a grid, a Gaussian whose σ is √0.15 and
@@ -23,6 +22,9 @@ const SMALL: f32 = 4.0;
 /// Texel (x0 + i, y0 + j) lies at dv = j − fy below the centre; the ellipse's middle in its row is at
 /// fx + slope·dv from x0, and with dx the distance from there the Gaussian's exponent, in [`UNIT`]s,
 /// is e = row_scale·dv² + run_scale·dx². Both terms are positive, so nothing cancels.
+///
+/// A row begins with its first texel in the ellipse, and is read in quads. The ellipse is convex, so
+/// those rows that need a second quad follow one another, and so do those that need a third.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Walk {
     /// The whole part of the centre, in index space.
@@ -31,28 +33,31 @@ pub(crate) struct Walk {
     /// The rest of the centre, in [0, 1].
     pub(crate) fx: f32,
     pub(crate) fy: f32,
-    /// First row, relative to y0.
-    pub(crate) first: i32,
-    /// Blocks of [`LANES`] rows, and groups of as many texels that cover the widest row. Weights
-    /// outside the ellipse are 0, and a fixed count is cheaper than exact ends: it depends on the
-    /// ellipse but not on where in a texel its centre lies, so neighbouring pixels agree on it and
-    /// the processor can predict it.
-    pub(crate) blocks: i32,
-    pub(crate) groups: i32,
-    /// Half the ellipse's width along any row through its centre.
-    pub(crate) run: f32,
     /// Σuv/Σvv: how the middle moves from row to row.
     pub(crate) slope: f32,
     /// ½/Σvv, in units.
     pub(crate) row_scale: f32,
     /// ½Σvv/det Σ, in units.
     pub(crate) run_scale: f32,
+    /// One over each of the two.
+    pub(crate) row_width: f32,
+    pub(crate) run_width: f32,
     /// Weights with e above this are 0: ½R², in units.
     pub(crate) cut: f32,
+    /// Quads of the widest row.
+    pub(crate) groups: i32,
     /// 1 if every texel of the walk lies inside the level, or in tiles that are as good, else 0.
     pub(crate) inside: i32,
     /// 1 if the ellipse is so small that sums of weights times texels fit 31 bits, else 0.
     pub(crate) small: i32,
+}
+
+/// The rows that have a quad of a number: the first, relative to y0, and how many. None, if that is
+/// not positive.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rows {
+    pub(crate) first: i32,
+    pub(crate) count: i32,
 }
 
 impl Walk {
@@ -65,79 +70,69 @@ impl Walk {
         let (u, v) = (u * frame.scale[0] - 0.5, v * frame.scale[1] - 0.5);
         let (x0, y0) = (floor(u), floor(v));
         let (fx, fy) = ((u - x0) as f32, (v - y0) as f32);
-        let (uv, vv, det) = (sigma.uv as f32, sigma.vv as f32, sigma.det as f32);
+        let (uu, uv) = (sigma.uu as f32, sigma.uv as f32);
+        let (vv, det) = (sigma.vv as f32, sigma.det as f32);
         let inverse_vv = 1.0 / vv;
-        let slope = uv * inverse_vv;
-        // Half-widths: R√Σvv over the rows, R√(det/Σvv) along any one row.
-        let rise = limits.radius * sqrt32(vv);
+        let inverse_det = 1.0 / det;
+        // Half-widths: R√Σuu and R√Σvv of the whole, R√(det/Σvv) along any one row.
+        let wide = limits.radius * sqrt32(uu);
+        let tall = limits.radius * sqrt32(vv);
         let run = limits.radius * sqrt32(det * inverse_vv);
-        // An interval of half-width h holds at most ⌊2h⌋ + 1 whole numbers: ⌊h/2⌋ + 1 groups of 4.
-        let blocks = floor32(0.5 * rise) + 1.0;
+        // An interval of half-width h holds at most ⌊2h⌋ + 1 whole numbers: ⌊h/2⌋ + 1 quads.
         let groups = floor32(0.5 * run) + 1.0;
-        // The middle moves evenly from row to row, so the first and the last reach farthest: these
-        // are the numbers of the walk itself, which only grow or only fall with the row.
-        let first = -floor32(rise - fy);
-        let last = first + (4.0 * blocks - 1.0);
-        let start = |j: f32| floor32(slope * (j - fy) + (fx - run)) + 1.0;
-        let (a, b) = (start(first), start(last));
-        let (left, right) = (a.min(b), a.max(b) + 4.0 * groups);
-        let inside = (x0 + f64::from(left) >= frame.low[0])
-            & (x0 + f64::from(right) <= frame.high[0])
-            & (y0 + f64::from(first) >= frame.low[1])
-            & (y0 + f64::from(last) < frame.high[1]);
+        // A texel more on either side takes care of rounding, and the last quad's own length.
+        let inside = (u - f64::from(wide + 1.0) >= frame.low[0])
+            & (u + f64::from(wide + 6.0) <= frame.high[0])
+            & (v - f64::from(tall + 1.0) >= frame.low[1])
+            & (v + f64::from(tall + 2.0) <= frame.high[1]);
         Self {
             x0: whole(x0),
             y0: whole(y0),
             fx,
             fy,
-            first: first as i32,
-            blocks: blocks as i32,
-            groups: groups as i32,
-            run,
-            slope,
+            slope: uv * inverse_vv,
             row_scale: 0.5 * UNIT * inverse_vv,
-            run_scale: 0.5 * UNIT * (vv / det),
+            run_scale: 0.5 * UNIT * (vv * inverse_det),
+            row_width: 2.0 / UNIT * vv,
+            run_width: 2.0 / UNIT * (det * inverse_vv),
             cut: limits.cut,
+            groups: groups as i32,
             inside: i32::from(inside),
             small: i32::from(det <= SMALL),
         }
     }
 
-    /// The first row of a block.
+    /// The rows that have a quad of this number: those at least four texels wide for each before it.
     #[inline(always)]
-    pub(crate) fn row_of(&self, block: i32) -> i32 {
-        self.first + block * LANES as i32
-    }
-
-    /// Blocks times groups of a walk inside its level; 0 if it is not.
-    #[inline(always)]
-    pub(crate) fn pieces(&self) -> usize {
-        (self.blocks * self.groups * self.inside) as usize
+    pub(crate) fn rows(&self, group: i32) -> Rows {
+        let before = (LANES / 2) as f32 * group as f32;
+        let left = (self.cut - (before * before) * self.run_scale).max(0.0);
+        let reach = sqrt32(left * self.row_width);
+        let first = -(floor32(reach - self.fy) as i32);
+        Rows { first, count: floor32(reach + self.fy) as i32 - first + 1 }
     }
 
     /// Texels that the walk reads.
     pub(crate) fn texels(&self) -> usize {
-        self.blocks as usize * self.groups as usize * LANES * LANES
+        (0..self.groups).map(|g| self.rows(g).count.max(0) as usize * LANES).sum()
     }
 
     /// The texel nearest to the centre.
     #[cold]
     #[inline(never)]
-    fn centre(&self, level: &Level, wrap: Wrap) -> [f32; 4] {
+    pub(crate) fn centre(&self, level: &Level, wrap: Wrap) -> [f32; 4] {
         let right = i32::from(self.fx >= 0.5);
         let below = i32::from(self.fy >= 0.5);
         level.texel(self.x0 + right, self.y0 + below, wrap)
     }
 
-    /// The colour, from the sums of the weights times texels and of the weights. Both are whole numbers
-    /// below 2⁵³, so the mean of equal texels is one of them.
+    /// The colour, from the sums of the weights times texels and of the weights.
     #[inline(always)]
     pub(crate) fn mean(&self, sums: [f64; 4], total: i32, level: &Level, wrap: Wrap) -> [f32; 4] {
         if total <= 0 {
             return self.centre(level, wrap);
         }
-        let share = 1.0 / f64::from(total);
-        sums.map(|sum| (sum * share) as f32 * STEP)
+        mean(sums, total)
     }
 
     /// Row `j` of the walk, as far as it can be found in the level.
@@ -150,6 +145,17 @@ impl Walk {
         });
         Row { texels, columns: level.part[0], width: level.width, wrap }
     }
+}
+
+/// The colour, from the sums of the weights times texels and of the weights, which are not 0. Both are
+/// whole numbers below 2⁵³, so the mean of equal texels is one of them.
+#[inline(always)]
+pub(crate) fn mean(sums: [f64; 4], total: i32) -> [f32; 4] {
+    let share = 1.0 / f64::from(total);
+    sums.map(
+        #[inline(always)]
+        |sum| (sum * share) as f32 * STEP,
+    )
 }
 
 /// A row of a level, or of the constant outside it.
@@ -196,17 +202,21 @@ impl Row<'_> {
 pub(crate) fn walk(level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
     let mut sums = [0i64; 4];
     let mut total = 0;
-    for (j, r) in (0..w.blocks).flat_map(|b| (0..LANES as i32).map(move |r| (w.row_of(b), r))) {
-        let dv = r as f32 + (j as f32 - w.fy);
-        let e = w.row_scale * (dv * dv);
-        let low = (w.slope * dv) + (w.fx - w.run);
-        let before = floor32(low);
-        let offset = (1.0 - w.run) - (low - before);
-        let row = w.row(j + r, level, wrap);
-        for k in (0..w.groups).map(|k| k * LANES as i32) {
-            let run = row.with_run(w.x0 + 1 + before as i32 + k, |run| *run);
+    for group in 0..w.groups {
+        let Rows { first, count } = w.rows(group);
+        let shift = (LANES as i32 * group) as f32;
+        for j in first..first.saturating_add(count) {
+            let dv = j as f32 - w.fy;
+            let e = (dv * dv) * w.row_scale;
+            let half = sqrt32((w.cut - e).max(0.0) * w.run_width);
+            let low = (dv * w.slope + w.fx) - half;
+            let before = floor32(low);
+            let offset = ((shift + 1.0) - half) - (low - before);
+            let row = w.row(j, level, wrap);
+            let start = w.x0 + 1 + LANES as i32 * group + before as i32;
+            let run = row.with_run(start, |run| *run);
             for (i, texel) in run.iter().enumerate() {
-                let dx = (k + i as i32) as f32 + offset;
+                let dx = offset + i as f32;
                 let e = e + w.run_scale * (dx * dx);
                 let weight = if e <= w.cut { weight(e) } else { 0 };
                 total += weight;
