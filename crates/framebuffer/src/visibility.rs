@@ -56,9 +56,9 @@ impl Default for Best {
 
 /// The colours of keys in a row, for [`Visibility::shade_pixels`].
 pub trait PixelColors {
-    /// The colour of a key in the pixel of a column. It may be asked for a key that was never drawn,
-    /// whose colour goes nowhere. To be inlined always.
-    fn at(&self, key: u32, x: usize) -> Premul;
+    /// The colour of a key in the pixel of column `x`, a whole number. It may be asked for a key that
+    /// was never drawn, whose colour goes nowhere. To be inlined always.
+    fn at(&self, key: u32, x: f64) -> Premul;
 }
 
 /// What is seen in some pixels of a row.
@@ -345,8 +345,19 @@ impl Visibility {
     #[inline(always)]
     fn shade_pixels_by(&self, y: u32, out: &mut [Premul], colors: &impl PixelColors) {
         let (start, keys) = self.keys(y);
-        for (x, (&key, out)) in keys.iter().zip(&mut *out).enumerate() {
+        let len = keys.len().min(out.len());
+        let ((eights, rest), (eight_outs, rest_outs)) =
+            (keys[..len].as_chunks::<SIDE>(), out[..len].as_chunks_mut::<SIDE>());
+        let mut x = 0.0;
+        for (keys, outs) in eights.iter().zip(eight_outs) {
+            for (c, (&key, out)) in keys.iter().zip(outs).enumerate() {
+                *out = colors.at(key, x + c as f64);
+            }
+            x += SIDE as f64;
+        }
+        for (&key, out) in rest.iter().zip(rest_outs) {
             *out = colors.at(key, x);
+            x += 1.0;
         }
         if self.groups == 0 {
             return;
@@ -355,14 +366,15 @@ impl Visibility {
             let mut mixed = mixed_bits(keys, out.len());
             while mixed != 0 {
                 let place = mixed.trailing_zeros() as usize;
-                let x = first + place;
+                let pixel = start + first + place;
+                let x = (first + place) as f64;
                 out[place] = if self.groups == 1 && self.samples == GROUP {
-                    let [a, b, c, d] = self.mixed[start + x];
+                    let [a, b, c, d] = self.mixed[pixel];
                     let color =
                         [colors.at(a, x), colors.at(b, x), colors.at(c, x), colors.at(d, x)];
                     mean4(color)
                 } else {
-                    let keys = self.samples_of(start + x);
+                    let keys = self.samples_of(pixel);
                     mean_of(keys.len(), |s| colors.at(keys[s], x))
                 };
                 mixed &= mixed - 1;

@@ -98,6 +98,6 @@ pub use rect::{IntRect, Rect};
 pub use rectify::{Rectified, Winding};
 #[cfg(feature = "paths")]
 pub use stroke::{Cap, Join, StrokeStyle};
-pub use tiles::{TileBins, TileGrid};
+pub use tiles::{BandStarts, TileBins, TileGrid};
 pub use triangle::{EdgeFunction, Triangle};
 pub use triangulate::{triangulate, triangulate_with};

@@ -77,16 +77,16 @@ impl Textured {
 pub(crate) struct RowColors<'a> {
     /// By key: at least one.
     pub(crate) planes: &'a [Plane<4>],
-    /// The first pixel.
-    pub(crate) corner: (i32, i32),
+    /// The centre of the first pixel.
+    pub(crate) start: DVec2,
 }
 
 impl PixelColors for RowColors<'_> {
     #[inline(always)]
-    fn at(&self, key: u32, x: usize) -> Premul {
+    fn at(&self, key: u32, x: f64) -> Premul {
         // Not a branch: what keys follow each other nothing could guess.
         let plane = &self.planes[(key as usize).min(self.planes.len() - 1)];
-        Premul(plane.at(centre(self.corner.0 + x as i32, self.corner.1)))
+        Premul(plane.at(DVec2::new(self.start.x + x, self.start.y)))
     }
 }
 

@@ -185,7 +185,6 @@ impl AreaSink for Painter<'_> {
     }
 }
 
-#[inline(always)]
 pub(crate) fn centre(x: i32, y: i32) -> DVec2 {
     DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)
 }

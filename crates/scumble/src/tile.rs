@@ -54,16 +54,12 @@ impl Job<'_> {
         (list, strips): (&[u32], &[Wanted<'_>]),
         rows: &mut [&mut [[u8; 4]]],
     ) {
-        let here = |&i: &u32| {
+        let here = |(&i, (draw, bounds)): (&u32, (_, IntRect))| {
             let found = strips.binary_search_by_key(&i, |wanted| wanted.draw).ok();
-            let i = i as usize;
-            Local {
-                draw: &self.plan.draws[i],
-                bounds: self.plan.bounds[i].intersect(&rect),
-                strip: found.and_then(|at| strips[at].strip.as_ref()),
-            }
+            let strip = found.and_then(|at| strips[at].strip.as_ref());
+            Local { draw, bounds: bounds.intersect(&rect), strip }
         };
-        let locals: Vec<Local> = list.iter().map(here).collect();
+        let locals: Vec<Local> = list.iter().zip(self.plan.draws(list)).map(here).collect();
         let effect = effect(&locals, rect);
         let visible = effect != Effect::Blends;
         let mut all = work.lists.pop().unwrap_or_default();
@@ -101,8 +97,8 @@ impl Job<'_> {
                     continue;
                 }
                 Effect::Ramps => {
-                    let corner = (rect.x0, rect.y0 + y as i32);
-                    seen.shade_pixels(y, colors, &RowColors { planes: &planes, corner });
+                    let start = centre(rect.x0, rect.y0 + y as i32);
+                    seen.shade_pixels(y, colors, &RowColors { planes: &planes, start });
                 }
                 Effect::Hides => seen.shade_row(y, colors, |key, x, out| {
                     let place = centre(rect.x0 + x as i32, rect.y0 + y as i32);

@@ -79,14 +79,14 @@ const COLORS: [[f32; 4]; 4] =
 struct Colors;
 
 impl PixelColors for Colors {
-    fn at(&self, key: u32, _: usize) -> Premul {
+    fn at(&self, key: u32, _: f64) -> Premul {
         COLORS.get(key as usize).map_or(Premul::TRANSPARENT, |&c| Premul(c))
     }
 }
 
 /// Shading and encoding are the mean over samples of the definition.
 fn check_colours(tile: &Visibility, naive: &Naive) -> Result<(), TestCaseError> {
-    let color = |key: u32| Colors.at(key, 0);
+    let color = |key: u32| Colors.at(key, 0.0);
     for space in [WorkingSpace::Srgb, WorkingSpace::Linear] {
         let mut palette = Palette::new(space);
         COLORS.iter().for_each(|&c| palette.push(Premul(c)));
@@ -204,6 +204,9 @@ fn long_rows_are_encoded_whole() {
     for room in [0, 1, 63, 64, 65, 149, 150, 200] {
         let mut shaded = vec![Premul::TRANSPARENT; room];
         tile.shade_row(0, &mut shaded, |key, _, out| out.fill(Premul(COLORS[key as usize])));
+        let mut by_pixel = vec![Premul::TRANSPARENT; room];
+        tile.shade_pixels(0, &mut by_pixel, &Colors);
+        assert_eq!(by_pixel, shaded);
         let mut expected = vec![[9; 4]; room];
         encode_row(&shaded[..room.min(150)], WorkingSpace::Srgb, &mut expected);
         let mut codes = vec![[9; 4]; room];
