@@ -11,7 +11,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use scumble_geometry::{DVec2, Homography};
 use scumble_pixel::{Image, Premul, WorkingSpace};
 use scumble_texture::{
-    Decimation, Footprint, Kernel, LevelMode, Magnify, PixelFilter, Sampler, Simd, Texture,
+    Decimation, Footprint, Kernel, LevelMode, Levels, Magnify, PixelFilter, Sampler, Simd, Texture,
     TextureOptions, Wrap,
 };
 use std::hint::black_box;
@@ -174,6 +174,13 @@ fn pyramid(c: &mut Criterion) {
     ] {
         let options = TextureOptions { decimation, space, ..Default::default() };
         group.bench_function(name, |b| b.iter(|| Texture::new(image.view(), &options).unwrap()));
+        // As programs make them that do not copy the image.
+        let coarser = Levels::Range { first: 1, last: usize::MAX };
+        let options = TextureOptions { levels: coarser, ..options };
+        group.bench_function(format!("{name}, without the image"), |b| {
+            b.iter(|| Texture::new(image.view(), &options).unwrap());
+        });
+        let options = TextureOptions { levels: Levels::All, ..options };
         let mut kept = Some(Texture::new(image.view(), &options).unwrap());
         group.bench_function(format!("{name}, in memory at hand"), |b| {
             b.iter(|| kept = kept.take().map(|t| t.renewed(image.view(), &options).unwrap()));

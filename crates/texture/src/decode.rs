@@ -16,6 +16,17 @@ const WORTH_A_TABLE: usize = 1 << 17;
 /// Pixels that are looked at together, whether they are opaque.
 const BLOCK: usize = 64;
 
+/// Bytes as parts of 255.
+const PARTS: [f32; 256] = {
+    let mut parts = [0.0; 256];
+    let mut code = 0;
+    while code < 256 {
+        parts[code] = code as f32 / 255.0;
+        code += 1;
+    }
+    parts
+};
+
 /// Alpha of 1, in steps.
 const OPAQUE: u64 = ONE as u64;
 
@@ -90,6 +101,8 @@ impl<P: Channels, A: Alpha> Decoder<P, A> {
             let least = pixels.iter().map(|p| p.alpha().code()).fold(255, usize::min);
             if least == 255 {
                 self.opaque(lanes, codes, pixels, out);
+            } else if pixels.iter().all(|p| p.alpha().code() == 0) {
+                out.fill(T::default());
             } else {
                 self.by_table(&codes.colors, pixels, out);
             }
@@ -111,6 +124,17 @@ impl<P: Channels, A: Alpha> Decoder<P, A> {
         }
         // A slice of a size that is known holds every code.
         let table = &table[..P::Channel::CODES];
+        if T::ROUNDS && P::Channel::CODES == 256 {
+            for (out, pixels) in out.chunks_mut(BLOCK).zip(pixels.chunks(BLOCK)) {
+                let mut steps = [[0.0; 4]; BLOCK];
+                for (steps, pixel) in steps.iter_mut().zip(pixels) {
+                    let [r, g, b, a] = pixel.spread(|c| table[c.code()], |c| PARTS[c.code() & 255]);
+                    *steps = [r * a, g * a, b * a, a].map(|v| v * ONE);
+                }
+                T::put(&steps, out);
+            }
+            return;
+        }
         for (out, pixel) in out.iter_mut().zip(pixels) {
             let [r, g, b, a] = pixel.spread(|c| table[c.code()], |c| self.value(c));
             *out = straight([r, g, b], unit(a));

@@ -26,6 +26,8 @@ pub(crate) trait Cell: Copy + Default + Send + Sync {
     fn numbers(self) -> [f32; 4];
     /// The texel nearest to such numbers.
     fn of_numbers(numbers: [f32; 4]) -> Self;
+    /// The texels nearest to such numbers: many at a time, which is quicker.
+    fn put(numbers: &[[f32; 4]], out: &mut [Self]);
     /// The texel nearest to a colour.
     fn of_color(color: [f32; 4]) -> Self;
     /// The texel of a colour in parts of 255².
@@ -73,6 +75,14 @@ impl Cell for Texel {
     #[inline(always)]
     fn of_numbers(numbers: [f32; 4]) -> Self {
         numbers.map(round)
+    }
+
+    #[inline(always)]
+    fn put(numbers: &[[f32; 4]], out: &mut [Self]) {
+        let out = out.as_flattened_mut();
+        for (out, v) in out.iter_mut().zip(numbers.as_flattened()) {
+            *out = round(*v);
+        }
     }
 
     #[inline(always)]
@@ -130,6 +140,13 @@ impl Cell for [f32; 4] {
     #[inline(always)]
     fn of_numbers(numbers: [f32; 4]) -> Self {
         numbers
+    }
+
+    #[inline(always)]
+    fn put(numbers: &[[f32; 4]], out: &mut [Self]) {
+        for (out, numbers) in out.iter_mut().zip(numbers) {
+            *out = *numbers;
+        }
     }
 
     #[inline(always)]

@@ -185,9 +185,15 @@ fn along_pairs<T: Cell, const PAIRS: usize>(
     line: &[[f32; 4]],
     out: &mut [T],
 ) {
+    const BLOCK: usize = 16;
     let (line, _) = line.as_chunks::<2>();
-    for (out, run) in out.iter_mut().zip(line.windows(PAIRS)) {
-        *out = T::of_numbers(lanes.sum(weights, run));
+    let mut runs = line.windows(PAIRS);
+    for out in out.chunks_mut(BLOCK) {
+        let mut sums = [[0.0; 4]; BLOCK];
+        for (sum, run) in sums[..out.len()].iter_mut().zip(&mut runs) {
+            *sum = lanes.sum(weights, run);
+        }
+        T::put(&sums, out);
     }
 }
 
