@@ -2,6 +2,9 @@
 
 mod choice;
 mod compare;
+mod diff;
+mod info;
+mod mip;
 mod signal;
 mod value;
 
@@ -9,6 +12,9 @@ pub(crate) use choice::{
     Antialias, Interpolate, Level, Pattern, Pixel, Profile, Shade, Space, name as choice_name,
 };
 pub(crate) use compare::Compare;
+pub(crate) use diff::Diff;
+pub(crate) use info::{Info, ReadLimits};
+pub(crate) use mip::{Edge, LevelFilter, Mip, StoredAs};
 pub(crate) use signal::{Border, Convolution, Filter, Memory, Of, Spectrum, Window};
 pub(crate) use value::{Background, Crop};
 
@@ -25,7 +31,7 @@ pub(crate) const STANDARD_STREAM: &str = "-";
 #[command(
     name = "scumble",
     version,
-    about = "Renders scenes to pictures whose every pixel is an honest average",
+    about = "Pictures whose every pixel is an honest average: scenes rendered, mip levels made",
     arg_required_else_help = true,
     max_term_width = 100,
     after_help = AFTER_HELP
@@ -36,15 +42,22 @@ pub(crate) struct Cli {
 }
 
 const AFTER_HELP: &str = "\
-Exit status: 0 done · 1 failure · 2 wrong arguments · 3 a limit was hit · 130 interrupted
+Exit status:
+  0 done · 1 failure · 2 wrong arguments · 3 a limit was hit · 4 pictures differ · 130 interrupted
 
-`scumble render --help` explains every option.";
+`scumble render --help` explains every option, and so for the other commands.";
 
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Draw a scene into a PNG
     Render(Box<Render>),
+    /// Make the mip levels of a picture
+    Mip(Box<Mip>),
+    /// Compare two pictures
+    Diff(Diff),
+    /// Say what a scene or a picture holds
+    Info(Info),
     /// Draw a scene by several settings, side by side on a sheet with labels
     Compare(Box<Compare>),
     /// Show the frequencies of a picture
@@ -68,7 +81,7 @@ Examples:
 /// What to render, and how.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
-#[command(long_about = RENDER_ABOUT, after_long_help = RENDER_EXAMPLES, after_help = RENDER_MORE)]
+#[command(long_about = RENDER_ABOUT, after_long_help = RENDER_EXAMPLES, after_help = MORE)]
 pub(crate) struct Render {
     /// The scene, an SVG file; `-` is standard input
     #[arg(value_hint = ValueHint::FilePath)]
@@ -108,7 +121,8 @@ The picture is as large as the scene says (a course scene: 800 by 600 pixels) un
 say otherwise. The same scene and options give the same bytes on every machine and any number \
 of threads.";
 
-const RENDER_MORE: &str = "`--help` says more, with examples.";
+/// What the short help ends with.
+const MORE: &str = "`--help` says more, with examples.";
 
 const RENDER_EXAMPLES: &str = "\
 Examples:

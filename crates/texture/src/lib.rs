@@ -58,6 +58,7 @@
 //! - [`PixelFilter::Separable`]: plain interpolation, for what is only ever magnified.
 //! - [`Probes`]: anisotropic filtering of anything that can average a round spot; [`procedural`] has
 //!   sources that are functions, and the ground grid of 3-D viewports.
+//! - [`maps`]: levels of cut-outs and of normal maps.
 //! - [`Texels`]: images of one to four channels, in 8 and 16 bits, half floats and floats, in foreign
 //!   memory, with the alpha's kind in the type.
 //! - [`compare`] and [`Sampler::CLASSIC`]: what others do.
@@ -126,6 +127,7 @@ mod kernel;
 mod level;
 mod lod;
 mod magnify;
+pub mod maps;
 mod math;
 mod mixture;
 mod names;

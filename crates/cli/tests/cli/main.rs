@@ -2,8 +2,11 @@
 
 mod common;
 mod compare;
+mod diff;
 mod failures;
+mod info;
 mod limits;
+mod mip;
 mod output;
 mod pictures;
 mod report;

@@ -3,10 +3,13 @@
 //! One page for each document, each picture with what is to be seen on it. Everything is a function of
 //! this source: the same bytes on every run.
 
+mod ewa;
 mod ink;
 mod lecture;
 mod page;
 mod plot;
+mod rasterizer;
+mod stage;
 
 use crate::Asset;
 use scumble_pixel::Image;
@@ -27,6 +30,15 @@ pub enum GalleryError {
     /// A filter could not be made.
     #[error("a filter: {0}")]
     Signal(#[from] scumble_signal::SignalError),
+    /// The assets could not be drawn.
+    #[error("the assets: {0}")]
+    Assets(#[from] crate::LabError),
+    /// There is no such asset.
+    #[error("no asset is called {0}")]
+    Missing(String),
+    /// A scene could not be read.
+    #[error("a scene: {0}")]
+    Scene(#[from] scumble_svg::SvgError),
     /// A picture could not be encoded.
     #[error("cannot encode a picture: {0}")]
     Encode(#[from] png::EncodingError),
@@ -58,7 +70,7 @@ struct Page {
     figures: &'static [Figure],
 }
 
-const PAGES: [&Page; 1] = [&lecture::PAGE];
+const PAGES: [&Page; 3] = [&lecture::PAGE, &rasterizer::PAGE, &ewa::PAGE];
 
 /// Every page and picture, relative to the gallery's folder.
 ///
