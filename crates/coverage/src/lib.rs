@@ -90,8 +90,11 @@
 //!
 //! A triangle is three edge functions E(x, y) = a·x + b·y + c ([Pineda 1988]). For a band of eight
 //! rows, a division per edge tells which blocks of 8 × 8 pixels it touches and which it fills; only
-//! blocks on an edge are looked into, sixteen lanes at a time. A polygon adds its edges' winding
-//! numbers to the pixels that they pass through and sums along the row, so nothing is triangulated.
+//! blocks on an edge are looked into, sixteen lanes at a time. With up to four samples the ends of
+//! rows come from divisions instead, eight rows at a time; or, for a sink that asks for it by
+//! [`Sink::SQUARES`], masks of 8 × 8 pixels from the edge functions, which suits small triangles best.
+//! A polygon adds its edges' winding numbers to the pixels that they pass through and sums along the
+//! row, so nothing is triangulated.
 //!
 //! Exact areas are sums as well: what lies right of each edge in a pixel, a trapezoid, rounded to
 //! 2⁻³² of a pixel so that the sums are exact. Eight pixels are found at a time, and only along the
