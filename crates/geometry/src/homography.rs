@@ -239,7 +239,7 @@ fn local_square_to_quad(quad: [DVec2; 4]) -> Result<(Homography, Affine), Geomet
 }
 
 /// Refuses quads with a corner that is not finite or with three corners on a line.
-fn check_quad(quad: &[DVec2; 4]) -> Result<(), GeometryError> {
+pub(crate) fn check_quad(quad: &[DVec2; 4]) -> Result<(), GeometryError> {
     if let Some(&p) = quad.iter().find(|p| !p.is_finite()) {
         return Err(GeometryError::NotFinite(p));
     }

@@ -65,6 +65,22 @@ impl Pool {
         }
     }
 
+    /// What becomes of each item, in their order.
+    pub(crate) fn map<T: Send, U: Send>(
+        &self,
+        items: Vec<T>,
+        f: impl Fn(T) -> U + Sync + Send,
+    ) -> Vec<U> {
+        match self {
+            Self::Serial => items.into_iter().map(f).collect(),
+            #[cfg(feature = "parallel")]
+            Self::Parallel(pool) => {
+                use rayon::iter::{IntoParallelIterator, ParallelIterator};
+                pool.install(|| items.into_par_iter().map(f).collect())
+            }
+        }
+    }
+
     pub(crate) fn for_each<T: Send>(&self, items: Vec<T>, f: impl Fn(T) + Sync + Send) {
         match self {
             Self::Serial => items.into_iter().for_each(f),

@@ -65,17 +65,17 @@ pub(crate) fn wanted<'a>(
     let band = IntRect { x1: grid.area().x1, ..tiles };
     let mut wanted = Vec::new();
     for (column, list) in lists.iter().enumerate() {
-        for &draw in list {
-            let clip = plan.bounds[draw as usize].intersect(&band);
+        for (&number, (draw, bounds)) in list.iter().zip(plan.draws(list)) {
+            let clip = bounds.intersect(&band);
             let column_of = |x: i32| (x.abs_diff(band.x0) / grid.side()) as usize;
             // Each is looked at in its leftmost tile.
             if clip.is_empty() || column_of(clip.x0) != column || column_of(clip.x1 - 1) == column {
                 continue;
             }
-            if let Form::Shape(shape) = &plan.draws[draw as usize].form
+            if let Form::Shape(shape) = &draw.form
                 && shape.edge_count() >= LEAST_EDGES
             {
-                wanted.push(Wanted { draw, shape, clip, strip: None });
+                wanted.push(Wanted { draw: number, shape, clip, strip: None });
             }
         }
     }

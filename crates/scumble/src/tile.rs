@@ -1,13 +1,13 @@
 //! One tile: replays its primitives in order, then resolves.
 
-use crate::paint::Paint;
+use crate::paint::{Paint, RowColors};
 use crate::painter::{Painter, Stamp, centre};
 use crate::plan::{Draw, Effect, Form, Plan};
 use crate::strips::{Strip, Wanted};
 use crate::{Antialias, Settings};
 use scumble_coverage::{Cover, Scratch, Sink, hairline};
 use scumble_framebuffer::{Palette, Tile, Visibility, encode_row};
-use scumble_geometry::IntRect;
+use scumble_geometry::{IntRect, Plane};
 use scumble_pixel::Premul;
 
 /// What a worker keeps from tile to tile, so that nothing is allocated in the steady state.
@@ -54,16 +54,12 @@ impl Job<'_> {
         (list, strips): (&[u32], &[Wanted<'_>]),
         rows: &mut [&mut [[u8; 4]]],
     ) {
-        let here = |&i: &u32| {
+        let here = |(&i, (draw, bounds)): (&u32, (_, IntRect))| {
             let found = strips.binary_search_by_key(&i, |wanted| wanted.draw).ok();
-            let i = i as usize;
-            Local {
-                draw: &self.plan.draws[i],
-                bounds: self.plan.bounds[i].intersect(&rect),
-                strip: found.and_then(|at| strips[at].strip.as_ref()),
-            }
+            let strip = found.and_then(|at| strips[at].strip.as_ref());
+            Local { draw, bounds: bounds.intersect(&rect), strip }
         };
-        let locals: Vec<Local> = list.iter().map(here).collect();
+        let locals: Vec<Local> = list.iter().zip(self.plan.draws(list)).map(here).collect();
         let effect = effect(&locals, rect);
         let visible = effect != Effect::Blends;
         let mut all = work.lists.pop().unwrap_or_default();
@@ -91,6 +87,7 @@ impl Job<'_> {
         let space = self.settings.space;
         let palette =
             if effect == Effect::Flat { self.palette(locals) } else { Palette::new(space) };
+        let planes = if effect == Effect::Ramps { self.planes(locals) } else { Vec::new() };
         colors.clear();
         colors.resize(rect.width() as usize, Premul::TRANSPARENT);
         for (y, row) in (0..).zip(rows) {
@@ -98,6 +95,10 @@ impl Job<'_> {
                 Effect::Flat => {
                     seen.encode_row(y, &palette, row);
                     continue;
+                }
+                Effect::Ramps => {
+                    let start = centre(rect.x0, rect.y0 + y as i32);
+                    seen.shade_pixels(y, colors, &RowColors { planes: &planes, start });
                 }
                 Effect::Hides => seen.shade_row(y, colors, |key, x, out| {
                     let place = centre(rect.x0 + x as i32, rect.y0 + y as i32);
@@ -112,6 +113,12 @@ impl Job<'_> {
             }
             encode_row(colors, space, row);
         }
+    }
+
+    /// The colours of the background and of primitives, each a plane.
+    fn planes(&self, locals: &[Local<'_>]) -> Vec<Plane<4>> {
+        let background = std::iter::once(Plane::constant(self.background.0));
+        background.chain(locals.iter().map(|local| local.draw.paint.plane())).collect()
     }
 
     /// The colours of the background and of primitives that have but one.

@@ -9,6 +9,9 @@ use scumble_geometry::Matrix2;
 /// with a margin.
 const MAGNIFIED: f64 = 2.0;
 
+/// More than any pyramid has.
+const FARTHEST: usize = 63;
+
 impl Sampler {
     /// The levels to build for footprints whose axes lie between bounds: for a picture of which it is
     /// known beforehand how far the texture is away.
@@ -25,7 +28,7 @@ impl Sampler {
     /// // Magnified, no pyramid is read; an eighth of the size, no fine level.
     /// assert_eq!(Sampler::DEFAULT.levels_for([0.2, 0.2], [0.3, 0.3]), Levels::BaseOnly);
     /// let small = Sampler::DEFAULT.levels_for([8.0, 8.0], [8.0, 8.0]);
-    /// assert_eq!(small, Levels::Range { first: 2, last: usize::MAX });
+    /// assert_eq!(small, Levels::Range { first: 2, last: 3 });
     /// ```
     #[must_use]
     pub fn levels_for(&self, least: [f64; 2], most: [f64; 2]) -> Levels {
@@ -36,18 +39,22 @@ impl Sampler {
             && self.level == LevelMode::Auto
             && self.kernel == Kernel::Gaussian
             && !matches!(self.magnify, Magnify::Radial(_));
-        let (first, base_only) = if by_ellipse {
+        let (first, last) = if by_ellipse {
             // A NaN is magnified, too.
             let magnifies = self.magnify != Magnify::None && least[0].max(0.0) < MAGNIFIED;
-            let finest = if magnifies { 0 } else { self.level_of(least).0 };
-            (finest, most.iter().all(|s| s.is_finite()) && self.level_of(most) == (0, false))
+            let first = if magnifies { 0 } else { self.level_of(least).0 };
+            let bounded = most.iter().all(|s| s.is_finite());
+            let (last, blends) = if bounded { self.level_of(most) } else { (FARTHEST, false) };
+            (first, last + usize::from(blends))
+        } else if self.pixel != PixelFilter::Classic && most[0] <= 1.0 {
+            (0, 0)
         } else {
-            (0, self.pixel != PixelFilter::Classic && most[0] <= 1.0)
+            (0, FARTHEST)
         };
-        match (first, base_only) {
-            (_, true) => Levels::BaseOnly,
-            (0, false) => Levels::All,
-            (first, false) => Levels::Range { first, last: usize::MAX },
+        match (first, last) {
+            (_, 0) => Levels::BaseOnly,
+            (0, FARTHEST..) => Levels::All,
+            _ => Levels::Range { first, last },
         }
     }
 
@@ -56,8 +63,7 @@ impl Sampler {
         let limits = Limits::new(self);
         let jacobian = Matrix2::new(major.max(0.0), 0.0, 0.0, minor.max(0.0));
         let (_, variance) = Covariance::of(&jacobian, limits.inverse_ratio);
-        // No pyramid has as many levels.
-        let pick = auto_pick(variance * limits.inverse_least, 63, limits.blend);
+        let pick = auto_pick(variance * limits.inverse_least, FARTHEST, limits.blend);
         (pick.level, pick.coarser > 0.0)
     }
 }

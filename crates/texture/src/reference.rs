@@ -112,6 +112,13 @@ impl<'a> Reference<'a> {
     }
 }
 
+/// What the brute force integrates: the first level that is kept, interpolated bilinearly, at a position
+/// in texels of the image. `None` where that is not finite.
+#[must_use]
+pub fn surface(texture: &Texture, p: DVec2) -> Option<[f64; 4]> {
+    bilinear(texture, p)
+}
+
 /// Level 0 at a position in its texels.
 fn bilinear(texture: &Texture, p: DVec2) -> Option<[f64; 4]> {
     let level = &texture.levels[0];

@@ -2,10 +2,14 @@
 
 use super::Map;
 use super::view::View;
-use crate::geometry::{DVec2, DVec3, Homography};
+use crate::geometry::{DVec2, DVec3, Homography, IntRect, Matrix2, Rect};
+use crate::texture::{Footprint, Sampler};
 
 /// Cells along each axis into which the output is cut for the bounds.
 const CELLS: u32 = 32;
+
+/// The part of a source from which on all of it is taken.
+const WORTH: f64 = 0.5;
 
 /// By how much the axes of a map of one's own, which is only looked at in places, may lie beyond what
 /// was seen there.
@@ -44,12 +48,52 @@ impl Extent {
     fn projective(map: &Homography, output: [u32; 2], source: Option<[usize; 2]>) -> Self {
         let view = View::new(*map, source);
         let mut all = Self::NONE;
-        for corners in cells(output) {
+        for corners in cells(all_of(output)) {
             if !view.misses(&corners) {
                 all.and(Self::of_cell(map, &corners));
             }
         }
         all
+    }
+
+    /// The part of a source that some pixels of the output read; `None` for all of it, or most. The
+    /// source either ends at its edge or goes on with the texels there.
+    pub(super) fn window(
+        map: &Homography,
+        area: IntRect,
+        (source, ends): ([usize; 2], bool),
+        sampler: &Sampler,
+    ) -> Option<IntRect> {
+        let mut read: Option<Rect> = None;
+        let view = View::new(*map, ends.then_some(source));
+        for corners in cells(area) {
+            if view.misses(&corners) {
+                continue;
+            }
+            let ends = corners.map(|p| map.project_homogeneous(p));
+            if ends.iter().any(|p| p.z <= 0.0) {
+                return None;
+            }
+            let major = Self::before_eye(map, &ends).most[0];
+            let jacobian = Matrix2::new(major, 0.0, 0.0, major);
+            let [across, down] = sampler.reach(&Footprint { u: 0.0, v: 0.0, jacobian });
+            let reach = DVec2::new(across, down);
+            let places = ends.map(|p| DVec2::new(p.x / p.z, p.y / p.z));
+            let around = places.iter().flat_map(|p| [*p - reach, *p + reach]);
+            let seen = read.into_iter().flat_map(|r| r.corners());
+            read = Some(Rect::bounding(around.chain(seen))?);
+        }
+        let [width, height] = source.map(|n| n as f64);
+        let read = read.unwrap_or(Rect::new(0.0, 0.0, 1.0, 1.0));
+        // From the texel nearest to the one end to the one nearest to the other.
+        let span = |low: f64, high: f64, n: f64| {
+            let low = low.floor().clamp(0.0, n - 1.0);
+            (low, high.ceil().clamp(low + 1.0, n))
+        };
+        let ((x0, x1), (y0, y1)) = (span(read.x0, read.x1, width), span(read.y0, read.y1, height));
+        // A NaN is the whole. Sides of textures are below 2²⁹.
+        let part = (x1 - x0) * (y1 - y0) < WORTH * width * height;
+        part.then(|| IntRect::new(x0 as i32, y0 as i32, x1 as i32, y1 as i32))
     }
 
     /// Of the part of a cell that lies before the eye. Where the horizon cuts it, the least axes are
@@ -93,7 +137,7 @@ impl Extent {
     /// What is seen at the middles and corners of the cells, and some doubt.
     fn seen<M: Map>(map: &M, output: [u32; 2]) -> Self {
         let mut all = Self::NONE;
-        for corners in cells(output) {
+        for corners in cells(all_of(output)) {
             let middle = (corners[0] + corners[2]) * 0.5;
             for f in [middle, corners[0]].into_iter().filter_map(|p| map.at(p)) {
                 let axes = f.jacobian.axes();
@@ -105,15 +149,24 @@ impl Extent {
     }
 }
 
+/// The pixels of an output.
+fn all_of([width, height]: [u32; 2]) -> IntRect {
+    // Outputs are at most 2³⁰ − 1 pixels on a side.
+    IntRect::new(0, 0, width as i32, height as i32)
+}
+
 /// The corners of cells that hold the centres of all pixels, in order around each.
-fn cells([width, height]: [u32; 2]) -> impl Iterator<Item = [DVec2; 4]> {
+fn cells(area: IntRect) -> impl Iterator<Item = [DVec2; 4]> {
+    let (width, height) = (area.width(), area.height());
     let (columns, rows) = (CELLS.min(width), CELLS.min(height));
     // The first and the last line go through the centres at the edge.
-    let line = |i: u32, n: u32, side: u32| 0.5 + f64::from(side - 1) * f64::from(i) / f64::from(n);
+    let line = |from: i32, i: u32, n: u32, side: u32| {
+        f64::from(from) + 0.5 + f64::from(side - 1) * f64::from(i) / f64::from(n)
+    };
     (0..rows).flat_map(move |j| {
         (0..columns).map(move |i| {
-            let x = [line(i, columns, width), line(i + 1, columns, width)];
-            let y = [line(j, rows, height), line(j + 1, rows, height)];
+            let x = [i, i + 1].map(|i| line(area.x0, i, columns, width));
+            let y = [j, j + 1].map(|j| line(area.y0, j, rows, height));
             [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j): (usize, usize)| DVec2::new(x[i], y[j]))
         })
     })
@@ -227,7 +280,7 @@ mod tests {
         let map = Homography::new([[20.0, 0.0, -9000.0], [0.0, 20.0, 0.0], [0.0, 0.02, 1.0]]);
         let Extent { least, most } = Extent::of(&map, [1280, 720], None);
         let (mut low, mut high) = ([f64::INFINITY; 2], [0.0f64; 2]);
-        for p in cells([1280, 720]).flatten() {
+        for p in cells(all_of([1280, 720])).flatten() {
             let axes = map.jacobian(p).axes();
             for (k, axis) in [axes.major, axes.minor].into_iter().enumerate() {
                 (low[k], high[k]) = (low[k].min(axis), high[k].max(axis));

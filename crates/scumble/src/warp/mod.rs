@@ -44,6 +44,7 @@ mod output;
 mod painter;
 mod run;
 mod source;
+mod verify;
 mod view;
 
 #[cfg(test)]
@@ -56,6 +57,7 @@ pub use map::Map;
 pub use output::OutputPixel;
 pub use run::{Prepared, Stats};
 pub use source::Source;
+pub use verify::{Distance, Score, Verification};
 
 use crate::DEFAULT_MAX_MEMORY;
 use crate::geometry::IntRect;

@@ -49,6 +49,11 @@ impl<'a, M: Map> Painter<'a, M> {
         }
     }
 
+    /// What lies beyond the edge of the source.
+    pub(super) fn ground(&self) -> Premul {
+        self.ground
+    }
+
     /// The colours of a run of pixels of row `y` from column `x` on.
     pub(super) fn row(&self, x: i32, y: i32, out: &mut [Premul]) {
         match (&self.view, self.map.homography()) {

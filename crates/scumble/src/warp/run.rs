@@ -2,11 +2,11 @@
 
 use super::extent::Extent;
 use super::painter::Painter;
-use super::{Map, OutputPixel, Source, Warp, WarpError};
-use crate::geometry::IntRect;
+use super::{Border, Map, OutputPixel, Source, Warp, WarpError};
+use crate::geometry::{IntRect, Rect};
 use crate::pixel::{Image, Premul};
 use crate::schedule::{Pool, pump};
-use crate::texture::{Texture, TextureOptions};
+use crate::texture::{Levels, Texture, TextureOptions};
 use crate::{Control, ImageSink, Sink};
 use std::convert::Infallible;
 use std::ops::Range;
@@ -62,8 +62,8 @@ impl<M: Map> Warp<M> {
         if self.map.homography().is_some_and(|map| map.inverse().is_err()) {
             return Err(WarpError::Singular);
         }
-        let opaque = self.border.ends() && source.is_opaque();
-        let options = self.texture_options(source.size(), opaque);
+        let opaque = source.is_opaque();
+        let options = self.texture_options(source.size(), opaque, area);
         let pool = Pool::new(self.threads).map_err(WarpError::Threads)?;
         let [width, height] = source.size();
         let texels = Texture::memory_for(width, height, &options).map_or(u64::MAX, |n| n as u64);
@@ -93,16 +93,25 @@ impl<M: Map> Warp<M> {
         if area.is_empty() { Err(WarpError::Crop { width, height }) } else { Ok(area) }
     }
 
-    /// What the texture must have. It depends on the whole output, so that a crop is that part of it.
-    fn texture_options(&self, size: [usize; 2], opaque: bool) -> TextureOptions {
+    /// What the texture must have. The levels depend on the whole output, so that a crop is that part of
+    /// it.
+    fn texture_options(&self, size: [usize; 2], opaque: bool, area: IntRect) -> TextureOptions {
         let visible = self.border.ends().then_some(size);
         let extent = Extent::of(&self.map, [self.width, self.height], visible);
-        TextureOptions {
-            space: self.space,
-            wrap: self.border.wrap(self.space, opaque),
-            levels: self.sampler.levels_for(extent.least, extent.most),
-            ..TextureOptions::default()
-        }
+        let levels = self.sampler.levels_for(extent.least, extent.most);
+        let periodic = matches!(self.border, Border::Repeat | Border::Mirror);
+        let map = self.map.homography().filter(|_| !periodic && levels != Levels::All);
+        let source = (size, self.border.ends());
+        let window = map.and_then(|map| Extent::window(&map, area, source, &self.sampler));
+        let levels = match levels {
+            // Up to a single texel, which is the mean: all of them take little more than these.
+            Levels::Range { first, .. } if window.is_none() => {
+                Levels::Range { first, last: usize::MAX }
+            }
+            levels => levels,
+        };
+        let wrap = self.border.wrap(self.space, opaque);
+        TextureOptions { space: self.space, wrap, levels, window, ..TextureOptions::default() }
     }
 
     pub(super) fn check_memory<E>(&self, needed: u64) -> Result<(), WarpError<E>> {
@@ -133,6 +142,29 @@ impl<M: Map> Prepared<'_, M> {
         pump(groups, height, (&self.pool, control), sink, render)?;
         sink.finish().map_err(WarpError::Sink)?;
         Ok(self.stats())
+    }
+
+    /// Whether every pixel of the result is opaque, as far as that can be told beforehand: where the
+    /// source is, no horizon is in sight, and the output shows nothing beyond an edge.
+    #[must_use]
+    pub fn is_opaque(&self) -> bool {
+        let Some(map) = self.warp.map.homography() else { return false };
+        let IntRect { x0, y0, x1, y1 } = self.area;
+        let [left, top, right, bottom] = [x0 - 2, y0 - 2, x1 + 2, y1 + 2].map(f64::from);
+        let size = [self.texture.width() as f64, self.texture.height() as f64];
+        let inside = Rect::new(left, top, right, bottom).corners().map(|p| {
+            let place = map.project(p)?;
+            let within = (0.0..=size[0]).contains(&place.x) && (0.0..=size[1]).contains(&place.y);
+            Some(within)
+        });
+        let ahead = inside.iter().all(Option::is_some);
+        let filled = match self.warp.border {
+            Border::Transparent => false,
+            Border::Constant(color) => color.0[3] >= 1.0,
+            Border::Clamp | Border::Repeat | Border::Mirror => true,
+        };
+        // What lies between four points inside is inside, too.
+        self.opaque && ahead && (filled || inside.iter().all(|p| *p == Some(true)))
     }
 
     /// What a run does.

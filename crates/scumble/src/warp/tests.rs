@@ -68,7 +68,15 @@ fn rows<M: Map>(prepared: &Prepared<'_, M>, piece: usize) -> Vec<Premul> {
     colors
 }
 
+/// A quarter of the usual number: each case is a picture or two.
+fn cases() -> ProptestConfig {
+    let usual = ProptestConfig::default();
+    ProptestConfig { cases: usual.cases.div_ceil(4), ..usual }
+}
+
 proptest! {
+    #![proptest_config(cases())]
+
     #[test]
     fn rows_are_their_pixels(
         map in homography(), sampler in sampler(), border in border(), opaque: bool, piece in 1..50usize,
