@@ -58,8 +58,8 @@
 //! - **Areas add up.** The area of a pixel is right to 10⁻⁶ for the snapped shape, overlaps and
 //!   self-intersections included, and the areas of a mesh sum to that of its outline. One limit:
 //!   where a polygon crosses itself so often within eight pixels of a row that following every
-//!   edge would take too long (from about forty edges in a tangle on), those eight are sampled at
-//!   128 points each. Edges that do not cross, however many, do not count.
+//!   edge would take too long (more than sixteen edges, with more than eight beside each other, and
+//!   any of them cross), those eight are sampled at 128 points each, as in a scribble.
 //! - **Every machine alike.** All instruction sets give the same calls with the same numbers;
 //!   [`Scratch::with_level`] picks one.
 //! - **Any finite input.** Degenerate, huge, self-crossing: right, in a time that depends on the

@@ -33,9 +33,13 @@ pub(super) fn areas(place: Place<'_>, edges: &[AreaEdge]) -> [f64; 8] {
     for e in edges {
         // The samples stand half a step below the top of the row, and then one step apart.
         let row = |height: i32| ((height + STEP / 2 - 1) / STEP) as usize;
+        // In columns of samples, so that the first column of a row of samples at or right of the edge is
+        // the next whole number.
+        let slope = &e.slope;
+        let start = (slope.at(y) - x) * COLUMNS as f64;
+        let run = slope.sign * slope.run * (COLUMNS as f64 / HEIGHTS as f64);
         for i in row(e.from)..row(e.to) {
-            let height = (i as f64 + 0.5) * (1.0 / HEIGHTS as f64);
-            let at = (e.slope.at(y + height) - x) * COLUMNS as f64 - SHIFTS[i];
+            let at = start + (i as f64 + 0.5) * run - SHIFTS[i];
             let first = -floor(-at.clamp(0.0, ALL as f64));
             changes[i][low_bits(first) as usize] += e.winding;
         }

@@ -16,14 +16,14 @@ use core::cmp::Ordering;
 use fearless_simd::{Simd, f64x8, prelude::*};
 
 /// How often, beyond what edges that do not cross can need, an edge is looked at in a strip before
-/// it is held that there are too many crossings to follow.
-const PATIENCE: usize = 1024;
+/// it is held that there are too many crossings to follow. Twice that takes up to twice the time on
+/// scribbles, which sampling is quick at.
+const PATIENCE: usize = 256;
 
-/// Edges and changes on the left count this often on top: side by side, edges that do not cross are
-/// looked at no more often, for there is no room for more than eight of them.
+/// As many edges of plain groups lie side by side at the most: each has a pixel of its own.
 const SIDE_BY_SIDE: usize = 8;
 
-/// With no more edges than this there is no need to foresee how long it takes.
+/// No more edges than this are a crowd.
 const FEW: usize = 16;
 
 /// Two edges have crossed if they are out of order by more than this (in pixels). Less is rounding,
@@ -88,23 +88,22 @@ impl Strips {
     ) -> [f64; 8] {
         let steps = place.left.marks().iter().map(|bits| bits.count_ones() as usize).sum::<usize>();
         let patience = PATIENCE + SIDE_BY_SIDE * (2 * edges.len() + steps + 1);
-        if edges.len() > FEW && least_work(edges, place.left) > patience {
-            return crowd::areas(place, edges);
-        }
-        match self.follow(simd, place, edges, patience) {
+        // In a crowd one crossing is taken for many.
+        let crowded = edges.len() > FEW && is_crowded(edges, place.left);
+        match self.follow(simd, place, edges, (patience, crowded)) {
             Some(()) => self.sums,
             None => crowd::areas(place, edges),
         }
     }
 
-    /// Sums strip by strip; gives up when it has lost patience.
+    /// Sums strip by strip; gives up when it has lost patience, or at the first crossing in a crowd.
     #[inline(always)]
     fn follow<S: Simd>(
         &mut self,
         simd: S,
         place: Place<'_>,
         edges: &[AreaEdge],
-        mut patience: usize,
+        (mut patience, crowded): (usize, bool),
     ) -> Option<()> {
         let (row_top, row_bottom) = (f64::from(place.y), f64::from(place.y) + 1.0);
         self.start(place.y, edges);
@@ -121,6 +120,9 @@ impl Strips {
             let mut bottom = self.next_event(step.min(row_bottom));
             self.order(top, bottom);
             if let Some(crossing) = self.first_crossing(top, bottom) {
+                if crowded {
+                    return None;
+                }
                 bottom = crossing;
             }
             self.set_left(place.polygon.is_inside(winding), top);
@@ -271,18 +273,21 @@ impl Live {
     }
 }
 
-/// How often edges are looked at if none of them cross.
-fn least_work(edges: &[AreaEdge], left: &Steps) -> usize {
+/// Whether more edges than [`SIDE_BY_SIDE`] are beside each other at most heights where anything
+/// happens.
+fn is_crowded(edges: &[AreaEdge], left: &Steps) -> bool {
     let mut events = left.marks();
     for height in edges.iter().flat_map(|e| [e.from, e.to]).filter(|&h| h < 256) {
         events[height as usize / 64] |= 1 << (height % 64);
     }
-    // How many events there are above each height.
-    let mut above = [0u16; 257];
-    for height in 0..256 {
-        above[height + 1] = above[height] + (events[height / 64] >> (height % 64) & 1) as u16;
-    }
-    edges.iter().map(|e| usize::from(above[e.to as usize] - above[e.from as usize])).sum()
+    // How many events there are above a height.
+    let above = |height: i32| {
+        let (word, bits) = (height as usize / 64, height % 64);
+        let whole: u32 = events[..word].iter().map(|bits| bits.count_ones()).sum();
+        whole + events.get(word).map_or(0, |w| (w & ((1 << bits) - 1)).count_ones())
+    };
+    let beside: u32 = edges.iter().map(|e| above(e.to) - above(e.from)).sum();
+    beside as usize > SIDE_BY_SIDE * above(256) as usize
 }
 
 /// Sorts what is nearly sorted.
