@@ -206,7 +206,7 @@ const EMPTY: Verification = {
 fn within(i: u32, n: u32, side: u32, chance: u32) -> i32 {
     let edge = |i: u32| u64::from(side) * u64::from(i) / u64::from(n);
     let (from, to) = (edge(i), edge(i + 1));
-    (from + (u64::from(chance) * (to - from) >> 32)) as i32
+    (from + ((u64::from(chance) * (to - from)) >> 32)) as i32
 }
 
 /// Some bits for each number (Steele, Lea and Flood's SplitMix64, 2014).
