@@ -1,4 +1,5 @@
-//! The `scumble` command. `scumble render SCENE` draws a scene into a PNG.
+//! The `scumble` command. `scumble render SCENE` draws a scene into a PNG,
+//! `scumble warp IN` a picture as it is seen another way.
 //!
 //! Exit status: 0 done, 1 failure, 2 wrong arguments, 3 a limit was hit, 128 + n ended by signal n.
 //! Errors are one line each on standard error, `scumble: FILE:LINE:COLUMN: what is wrong`.
@@ -17,6 +18,7 @@ mod report;
 mod resources;
 mod settings;
 mod size;
+mod warp;
 
 use args::{Cli, Command};
 use clap::{CommandFactory, Parser};
@@ -27,6 +29,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Render(options) => render::run(&options),
+        Command::Warp(options) => warp::run(&options),
         Command::Completions { shell } => completions(shell),
     };
     match result {

@@ -116,7 +116,7 @@ fn warning_json(warning: &Warning) -> Value {
 }
 
 /// Milliseconds to the microsecond: more digits would only be noise.
-fn milliseconds(time: Duration) -> f64 {
+pub(crate) fn milliseconds(time: Duration) -> f64 {
     time.as_micros() as f64 / 1000.0
 }
 

@@ -146,7 +146,7 @@ fn pattern(asked: Option<Pattern>, default: Pattern, samples: u32) -> Result<Pat
     }
 }
 
-fn crop(canvas: &Canvas) -> Result<Option<IntRect>, Failure> {
+pub(crate) fn crop(canvas: &Canvas) -> Result<Option<IntRect>, Failure> {
     let Some(crop) = canvas.crop else { return Ok(None) };
     // A crop lies in the canvas, so its corners are no larger than its sides.
     let int = |v: u32| i32::try_from(v).map_err(|_| Failure::Limit("the crop is too far".into()));
@@ -164,7 +164,7 @@ mod tests {
         let words = ["scumble", "render", "a.svg"].into_iter().chain(arguments.split_whitespace());
         match Cli::try_parse_from(words).unwrap().command {
             Command::Render(render) => *render,
-            Command::Completions { .. } => unreachable!("the word is render"),
+            _ => unreachable!("the word is render"),
         }
     }
 

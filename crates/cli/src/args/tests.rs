@@ -6,7 +6,7 @@ fn render(arguments: &[&str]) -> Result<Render, ErrorKind> {
     let words = ["scumble", "render"].iter().chain(arguments);
     match Cli::try_parse_from(words).map_err(|e| e.kind())?.command {
         Command::Render(render) => Ok(*render),
-        Command::Completions { .. } => unreachable!("the word is render"),
+        _ => unreachable!("the word is render"),
     }
 }
 

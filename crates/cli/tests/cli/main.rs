@@ -6,3 +6,4 @@ mod limits;
 mod output;
 mod pictures;
 mod report;
+mod warp;
