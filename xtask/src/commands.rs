@@ -91,6 +91,17 @@ pub(crate) fn quality(args: &[&str]) -> Outcome {
     finish(cargo(run).args(args), "quality")
 }
 
+/// Has the lab draw the gallery, or compare it.
+pub(crate) fn gallery(check: bool) -> Outcome {
+    let run = ["run", "--release", "--quiet", "-p", "lab", "--bin", "lab", "--", "gallery"];
+    let mut command = cargo(run);
+    command.arg("docs/gallery");
+    if check {
+        command.arg("--check");
+    }
+    finish(&mut command, "lab gallery")
+}
+
 /// `cargo bench` over the workspace with the given arguments; after `--peers`, the comparison with
 /// other programs, with arguments for it.
 pub(crate) fn bench(args: &[&str]) -> Outcome {

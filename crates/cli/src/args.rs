@@ -1,12 +1,22 @@
 //! The command line: what can be said, and the help that explains it.
 
 mod choice;
+mod compare;
+mod diff;
+mod info;
+mod mip;
+mod signal;
 mod value;
 mod warp;
 
 pub(crate) use choice::{
     Antialias, Interpolate, Level, Pattern, Pixel, Profile, Shade, Space, name as choice_name,
 };
+pub(crate) use compare::Compare;
+pub(crate) use diff::Diff;
+pub(crate) use info::{Info, ReadLimits};
+pub(crate) use mip::{Edge, LevelFilter, Mip, StoredAs};
+pub(crate) use signal::{Border, Convolution, Filter, Memory, Of, Spectrum, Window};
 pub(crate) use value::{Background, Crop};
 pub(crate) use warp::{Depth, PixelOrigin, Quad, Size as WarpSize, Warp, Way};
 
@@ -23,7 +33,7 @@ pub(crate) const STANDARD_STREAM: &str = "-";
 #[command(
     name = "scumble",
     version,
-    about = "Renders scenes to pictures whose every pixel is an honest average",
+    about = "Pictures whose every pixel is an honest average: scenes rendered, mip levels made",
     arg_required_else_help = true,
     max_term_width = 100,
     after_help = AFTER_HELP
@@ -34,9 +44,10 @@ pub(crate) struct Cli {
 }
 
 const AFTER_HELP: &str = "\
-Exit status: 0 done · 1 failure · 2 wrong arguments · 3 a limit was hit · 130 interrupted
+Exit status:
+  0 done · 1 failure · 2 wrong arguments · 3 a limit was hit · 4 pictures differ · 130 interrupted
 
-`scumble COMMAND --help` explains every option.";
+`scumble render --help` explains every option, and so for the other commands.";
 
 /// What to do.
 #[derive(Debug, Subcommand)]
@@ -45,6 +56,18 @@ pub(crate) enum Command {
     Render(Box<Render>),
     /// Warp a picture: perspective, rectification, any map
     Warp(Box<Warp>),
+    /// Make the mip levels of a picture
+    Mip(Box<Mip>),
+    /// Compare two pictures
+    Diff(Diff),
+    /// Say what a scene or a picture holds
+    Info(Info),
+    /// Draw a scene by several settings, side by side on a sheet with labels
+    Compare(Box<Compare>),
+    /// Show the frequencies of a picture
+    Spectrum(Box<Spectrum>),
+    /// Keep some of the frequencies of a picture, or convolve it
+    Filter(Box<Filter>),
     /// Print a completion script for a shell
     #[command(after_help = COMPLETIONS_HELP)]
     Completions {
@@ -62,7 +85,7 @@ Examples:
 /// What to render, and how.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
-#[command(long_about = RENDER_ABOUT, after_long_help = RENDER_EXAMPLES, after_help = RENDER_MORE)]
+#[command(long_about = RENDER_ABOUT, after_long_help = RENDER_EXAMPLES, after_help = MORE)]
 pub(crate) struct Render {
     /// The scene, an SVG file; `-` is standard input
     #[arg(value_hint = ValueHint::FilePath)]
@@ -102,7 +125,8 @@ The picture is as large as the scene says (a course scene: 800 by 600 pixels) un
 say otherwise. The same scene and options give the same bytes on every machine and any number \
 of threads.";
 
-const RENDER_MORE: &str = "`--help` says more, with examples.";
+/// What the short help ends with.
+const MORE: &str = "`--help` says more, with examples.";
 
 const RENDER_EXAMPLES: &str = "\
 Examples:
@@ -119,7 +143,7 @@ Exit status:
   A picture appears whole or not at all: it is written beside its place and renamed.";
 
 /// Where things come from and whether they may be replaced.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Files")]
 pub(crate) struct Files {
     /// How to read the scene
@@ -142,7 +166,7 @@ pub(crate) struct Files {
 }
 
 /// How large the canvas is, and which part of it to draw.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Size")]
 pub(crate) struct Size {
     /// Width of the canvas in pixels; without -H the aspect is kept
@@ -165,7 +189,7 @@ pub(crate) struct Size {
 }
 
 /// What a pixel is made of.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Quality")]
 pub(crate) struct Quality {
     /// How edges are made smooth: all primitives together by samples, without seams, or each for
@@ -220,7 +244,7 @@ pub(crate) struct Quality {
 }
 
 /// Colours.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Colour")]
 pub(crate) struct Color {
     /// The space in which colours are averaged and blended [default: srgb]
@@ -234,7 +258,7 @@ pub(crate) struct Color {
 }
 
 /// What a run may use.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Limits")]
 pub(crate) struct Limits {
     /// Threads to draw with; 0 is one for every core
@@ -251,7 +275,7 @@ pub(crate) struct Limits {
 }
 
 /// What to say.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Report")]
 pub(crate) struct Report {
     /// Say nothing but errors: no warnings, no progress bar

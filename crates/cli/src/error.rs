@@ -17,6 +17,9 @@ pub(crate) enum Failure {
     /// The work would take more than the run may use.
     #[error("{0}")]
     Limit(String),
+    /// Two pictures differ, which the report says.
+    #[error("they differ")]
+    Different,
     /// A signal ended the run.
     #[error("interrupted")]
     Interrupted {
@@ -42,6 +45,7 @@ impl Failure {
             Self::Failed(_) => 1,
             Self::Usage(_) => 2,
             Self::Limit(_) => 3,
+            Self::Different => 4,
             // As shells count them.
             Self::Interrupted { signal } => 128_u8.saturating_add(*signal),
         })

@@ -17,6 +17,7 @@ mod format;
 mod orientation;
 mod profile;
 mod read;
+mod show;
 mod texture;
 mod write;
 
@@ -24,6 +25,7 @@ pub(crate) use encode::Encoder;
 pub(crate) use format::{Depth, Format};
 pub(crate) use profile::Tone;
 pub(crate) use read::{Limits, read, read_bytes};
+pub(crate) use show::on_checkerboard;
 pub(crate) use write::{Form, Writer, out_of_turn};
 
 /// A decoded picture, upright.
@@ -141,6 +143,7 @@ impl Pixels {
     }
 
     /// Forgets all of them and keeps the memory.
+    #[allow(dead_code)]
     pub(crate) fn clear(&mut self) {
         match self {
             Self::U8(v) => v.clear(),
@@ -162,6 +165,7 @@ impl Pixels {
 impl Picture {
     /// What writes this picture's like: the same size, channels and profile, in a format and a depth
     /// of it.
+    #[allow(dead_code)]
     pub(crate) fn form(&self, format: Format, depth: Depth) -> Form {
         let icc = self.icc.clone().filter(|_| format.carries_icc());
         let (width, height, channels) = (self.width, self.height, self.channels);

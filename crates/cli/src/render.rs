@@ -115,7 +115,7 @@ const FILE_SHARE: u64 = 8;
 
 /// What a scene may cost, given what the run may use. The renderer, which knows the whole, counts
 /// again; these stop a hostile scene before it takes the memory, and say where it is.
-fn limits(options: &Render) -> Limits {
+pub(crate) fn limits(options: &Render) -> Limits {
     let memory = options.limits.max_memory;
     let share = |part: u64| usize::try_from(memory / part).unwrap_or(usize::MAX);
     let mut limits = Limits::default();
@@ -127,7 +127,8 @@ fn limits(options: &Render) -> Limits {
     limits
 }
 
-fn read(
+/// The scene, read with the resources that it may have.
+pub(crate) fn read(
     source: &Source,
     folders: &Folders,
     limits: Limits,

@@ -31,10 +31,19 @@ pub(crate) fn warn(name: &str, warnings: &[Warning]) {
     }
 }
 
-fn warning_line(name: &str, warning: &Warning) -> String {
+/// A warning on a line.
+pub(crate) fn warning_line(name: &str, warning: &Warning) -> String {
     let times =
         if warning.count > 1 { format!(" ({} times)", warning.count) } else { String::new() };
     located(name, warning.position, &format!("warning: {}{times}", warning.message))
+}
+
+/// Prints a text and the end of its line on standard output.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "{text}")
+        .and_then(|()| out.flush())
+        .map_err(|e| Failure::io("standard output", &e))
 }
 
 /// Everything that a finished run can tell.
@@ -65,10 +74,7 @@ pub(crate) struct Times {
 impl Report<'_> {
     /// Prints the report on standard output, on a line of its own.
     pub(crate) fn print(&self) -> Result<(), Failure> {
-        let mut out = std::io::stdout().lock();
-        writeln!(out, "{}", self.json())
-            .and_then(|()| out.flush())
-            .map_err(|e| Failure::io("standard output", &e))
+        print(&self.json().to_string())
     }
 
     fn json(&self) -> Value {
@@ -106,7 +112,8 @@ impl Report<'_> {
     }
 }
 
-fn warning_json(warning: &Warning) -> Value {
+/// A warning for programs.
+pub(crate) fn warning_json(warning: &Warning) -> Value {
     json!({
         "message": warning.message,
         "line": warning.position.map(|p| p.line),

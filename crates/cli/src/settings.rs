@@ -7,7 +7,7 @@ use crate::error::Failure;
 use crate::size::Canvas;
 use scumble::coverage::{CoverageError, SamplePattern};
 use scumble::geometry::IntRect;
-use scumble::pixel::{Straight, WorkingSpace};
+use scumble::pixel::Straight;
 use scumble::texture::{LevelMode, PixelFilter, Sampler};
 use scumble::{Interpolation, Settings, Shading};
 use scumble_svg::Profile;
@@ -112,10 +112,7 @@ impl Choices {
             Shade::Sample => Shading::Sample,
         };
         settings.sampler = self.sampler(&options.quality);
-        settings.space = match self.space {
-            Space::Srgb => WorkingSpace::Srgb,
-            Space::Linear => WorkingSpace::Linear,
-        };
+        settings.space = self.space.working();
         settings.interpolation = match self.interpolate {
             Interpolate::Perspective => Interpolation::Perspective,
             Interpolate::Affine => Interpolation::Affine,
@@ -159,6 +156,7 @@ mod tests {
     use super::*;
     use crate::args::{Cli, Command};
     use clap::Parser;
+    use scumble::pixel::WorkingSpace;
 
     fn parse(arguments: &str) -> Render {
         let words = ["scumble", "render", "a.svg"].into_iter().chain(arguments.split_whitespace());

@@ -63,4 +63,4 @@ mod visibility;
 pub use encode::{encode_row, encode_row_dithered, encode_row16};
 pub use palette::Palette;
 pub use tile::Tile;
-pub use visibility::{Seen, Visibility};
+pub use visibility::{PixelColors, Seen, Visibility};

@@ -1,5 +1,5 @@
 use crate::encode_row;
-use alloc::vec::Vec;
+use alloc::{vec, vec::Vec};
 use scumble_pixel::{Premul, WorkingSpace};
 
 /// Colours by their numbers, each with its encoding: what the keys of a
@@ -7,6 +7,8 @@ use scumble_pixel::{Premul, WorkingSpace};
 #[derive(Debug, Clone)]
 pub struct Palette {
     space: WorkingSpace,
+    /// By key, and last what stands for all keys beyond: no colour. So finding one takes no branch,
+    /// which nothing could guess.
     colors: Vec<Premul>,
     codes: Vec<[u8; 4]>,
 }
@@ -15,20 +17,20 @@ impl Palette {
     /// No colours yet, of a working space.
     #[must_use]
     pub fn new(space: WorkingSpace) -> Self {
-        Self { space, colors: Vec::new(), codes: Vec::new() }
+        Self { space, colors: vec![Premul::TRANSPARENT], codes: vec![[0; 4]] }
     }
 
     /// Adds the colour of the next key; the first is that of key 0.
-    #[inline]
     pub fn push(&mut self, color: Premul) {
-        self.colors.push(color);
-        self.codes.push(self.space.export(color));
+        self.extend([color]);
     }
 
     /// Adds the colours of the next keys, all in one go: much quicker than one by one.
     pub fn extend(&mut self, colors: impl IntoIterator<Item = Premul>) {
-        let first = self.colors.len();
+        let first = self.colors.len() - 1;
+        self.colors.truncate(first);
         self.colors.extend(colors);
+        self.colors.push(Premul::TRANSPARENT);
         self.codes.resize(self.colors.len(), [0; 4]);
         encode_row(&self.colors[first..], self.space, &mut self.codes[first..]);
     }
@@ -40,14 +42,14 @@ impl Palette {
     }
 
     /// The colour of a key.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn color(&self, key: u32) -> Premul {
-        self.colors.get(key as usize).copied().unwrap_or(Premul::TRANSPARENT)
+        self.colors[(key as usize).min(self.colors.len() - 1)]
     }
 
     /// The encoding of a key.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn code(&self, key: u32) -> [u8; 4] {
-        self.codes.get(key as usize).copied().unwrap_or_default()
+        self.codes[(key as usize).min(self.codes.len() - 1)]
     }
 }

@@ -1,5 +1,5 @@
+use crate::Palette;
 use crate::samples::{mean, mean_of, mean4};
-use crate::{Palette, encode_row};
 use alloc::vec::Vec;
 use scumble_pixel::Premul;
 use squares::{Rows, SIDE};
@@ -52,6 +52,13 @@ impl Default for Best {
     fn default() -> Self {
         Self(fearless_simd::Level::new())
     }
+}
+
+/// The colours of keys in a row, for [`Visibility::shade_pixels`].
+pub trait PixelColors {
+    /// The colour of a key in the pixel of column `x`, a whole number. It may be asked for a key that
+    /// was never drawn, whose colour goes nowhere. To be inlined always.
+    fn at(&self, key: u32, x: f64) -> Premul;
 }
 
 /// What is seen in some pixels of a row.
@@ -245,6 +252,15 @@ impl Visibility {
     ///
     /// The bytes are those of [`shade_row`](Self::shade_row) and [`encode_row`].
     pub fn encode_row(&self, y: u32, palette: &Palette, out: &mut [[u8; 4]]) {
+        #[cfg(feature = "std")]
+        fearless_simd::dispatch!(self.level.0, _simd => self.encode_row_by(y, palette, out));
+        #[cfg(not(feature = "std"))]
+        self.encode_row_by(y, palette, out);
+    }
+
+    // Inlined, so that it runs on the instructions of its caller.
+    #[inline(always)]
+    fn encode_row_by(&self, y: u32, palette: &Palette, out: &mut [[u8; 4]]) {
         let (start, keys) = self.keys(y);
         for (key, code) in keys.iter().zip(&mut *out) {
             *code = palette.code(*key);
@@ -253,10 +269,7 @@ impl Visibility {
             return;
         }
         for (first, (keys, out)) in (0..).step_by(64).zip(keys.chunks(64).zip(out.chunks_mut(64))) {
-            // As bits, since whether a pixel is mixed is nothing that a branch could guess.
-            let bits = (0..).zip(keys).map(|(i, &key)| u64::from(key == MIXED) << i);
-            let mut mixed = bits.fold(0, |all, bit| all | bit);
-            mixed &= u64::MAX >> (64 - out.len());
+            let mut mixed = mixed_bits(keys, out.len());
             let mut colors = [Premul::TRANSPARENT; 64];
             let (mut rest, mut count) = (mixed, 0);
             while rest != 0 {
@@ -265,7 +278,7 @@ impl Visibility {
                 count += 1;
             }
             let mut codes = [[0; 4]; 64];
-            encode_row(&colors[..count], palette.space(), &mut codes);
+            palette.space().export_row(&colors[..count], &mut codes);
             for code in &codes[..count] {
                 out[mixed.trailing_zeros() as usize] = *code;
                 mixed &= mixed - 1;
@@ -273,10 +286,13 @@ impl Visibility {
         }
     }
 
+    #[inline(always)]
     fn mix(&self, i: usize, palette: &Palette) -> Premul {
         if self.groups == 1 && self.samples == GROUP {
             // The most common number deserves a way of its own.
-            return mean4(self.mixed[i].map(|key| palette.color(key)));
+            let [a, b, c, d] = self.mixed[i];
+            let color = [palette.color(a), palette.color(b), palette.color(c), palette.color(d)];
+            return mean4(color);
         }
         let keys = self.samples_of(i);
         mean_of(keys.len(), |s| palette.color(keys[s]))
@@ -315,6 +331,57 @@ impl Visibility {
         }
     }
 
+    /// [`shade_row`](Self::shade_row) for colours that are quick to find: they are asked for pixel by
+    /// pixel, and for each sample of a mixed one, so that nothing hangs on how long a stretch is.
+    #[inline]
+    pub fn shade_pixels(&self, y: u32, out: &mut [Premul], colors: &impl PixelColors) {
+        #[cfg(feature = "std")]
+        fearless_simd::dispatch!(self.level.0, _simd => self.shade_pixels_by(y, out, colors));
+        #[cfg(not(feature = "std"))]
+        self.shade_pixels_by(y, out, colors);
+    }
+
+    // Inlined, so that it runs on the instructions of its caller.
+    #[inline(always)]
+    fn shade_pixels_by(&self, y: u32, out: &mut [Premul], colors: &impl PixelColors) {
+        let (start, keys) = self.keys(y);
+        let len = keys.len().min(out.len());
+        let ((eights, rest), (eight_outs, rest_outs)) =
+            (keys[..len].as_chunks::<SIDE>(), out[..len].as_chunks_mut::<SIDE>());
+        let mut x = 0.0;
+        for (keys, outs) in eights.iter().zip(eight_outs) {
+            for (c, (&key, out)) in keys.iter().zip(outs).enumerate() {
+                *out = colors.at(key, x + c as f64);
+            }
+            x += SIDE as f64;
+        }
+        for (&key, out) in rest.iter().zip(rest_outs) {
+            *out = colors.at(key, x);
+            x += 1.0;
+        }
+        if self.groups == 0 {
+            return;
+        }
+        for (first, (keys, out)) in (0..).step_by(64).zip(keys.chunks(64).zip(out.chunks_mut(64))) {
+            let mut mixed = mixed_bits(keys, out.len());
+            while mixed != 0 {
+                let place = mixed.trailing_zeros() as usize;
+                let pixel = start + first + place;
+                let x = (first + place) as f64;
+                out[place] = if self.groups == 1 && self.samples == GROUP {
+                    let [a, b, c, d] = self.mixed[pixel];
+                    let color =
+                        [colors.at(a, x), colors.at(b, x), colors.at(c, x), colors.at(d, x)];
+                    mean4(color)
+                } else {
+                    let keys = self.samples_of(pixel);
+                    mean_of(keys.len(), |s| colors.at(keys[s], x))
+                };
+                mixed &= mixed - 1;
+            }
+        }
+    }
+
     /// What is seen in a row, from left to right; nothing if there is no such row.
     pub fn row(&self, y: u32) -> impl Iterator<Item = Seen<'_>> {
         let (start, row) = self.keys(y);
@@ -331,6 +398,14 @@ impl Visibility {
             Some(Seen::Whole { x: first, len, key })
         })
     }
+}
+
+/// Which of the first pixels are mixed: of at most 64, and at most `room`. As bits, since whether a
+/// pixel is mixed is nothing that a branch could guess.
+#[inline(always)]
+fn mixed_bits(keys: &[u32], room: usize) -> u64 {
+    let bits = (0..).zip(keys).map(|(i, &key)| u64::from(key == MIXED) << i);
+    bits.fold(0, |all, bit| all | bit) & u64::MAX >> (64 - room.min(64))
 }
 
 /// Writes a key all over a run. Runs are short: two writes that overlap beat a loop over what is

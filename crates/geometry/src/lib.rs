@@ -70,6 +70,7 @@ mod math;
 mod matrix2;
 #[cfg(feature = "paths")]
 mod path;
+mod plane;
 mod ramp;
 mod rect;
 mod rectify;
@@ -91,11 +92,12 @@ pub use line::{line_quad, line_quad_square};
 pub use matrix2::{Axes, Matrix2};
 #[cfg(feature = "paths")]
 pub use path::{Path, PathElement};
+pub use plane::Plane;
 pub use ramp::Ramp;
 pub use rect::{IntRect, Rect};
 pub use rectify::{Rectified, Winding};
 #[cfg(feature = "paths")]
 pub use stroke::{Cap, Join, StrokeStyle};
-pub use tiles::{TileBins, TileGrid};
+pub use tiles::{BandStarts, TileBins, TileGrid};
 pub use triangle::{EdgeFunction, Triangle};
 pub use triangulate::{triangulate, triangulate_with};

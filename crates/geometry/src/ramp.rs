@@ -1,3 +1,4 @@
+use crate::plane::{Plane, clamp};
 use crate::{DVec2, DVec3, GeometryError, Interpolator};
 
 /// An attribute of N numbers over a projected triangle, such as a colour, made to be filled in row
@@ -20,9 +21,8 @@ use crate::{DVec2, DVec3, GeometryError, Interpolator};
 pub struct Ramp<const N: usize> {
     interpolator: Interpolator,
     values: [[f64; N]; 3],
-    /// Without perspective: where it counts from, and there the value and its change per pixel
-    /// along x and y.
-    slopes: Option<(DVec2, [[f32; N]; 3])>,
+    /// Without perspective, the same in a form that is quick to evaluate.
+    plane: Option<Plane<N>>,
     low: [f32; N],
     high: [f32; N],
 }
@@ -39,20 +39,27 @@ impl<const N: usize> Ramp<N> {
         let low = core::array::from_fn(|i| a[i].min(b[i]).min(c[i]));
         let high = core::array::from_fn(|i| a[i].max(b[i]).max(c[i]));
         let values = values.map(|value| value.map(f64::from));
-        let slopes = interpolator.is_affine().then(|| {
+        let plane = interpolator.is_affine().then(|| {
             let origin = positions[0].truncate() / positions[0].z;
             let at = |p| interpolator.interpolate(p, &values);
             let (here, right, below) = (at(origin), at(origin + DVec2::X), at(origin + DVec2::Y));
             let slope = |to: [f64; N]| core::array::from_fn(|i| (to[i] - here[i]) as f32);
-            (origin, [here.map(|v| v as f32), slope(right), slope(below)])
+            let (right, below) = (slope(right), slope(below));
+            Plane { origin, here: here.map(|v| v as f32), right, below, low, high }
         });
-        Ok(Self { interpolator, values, slopes, low, high })
+        Ok(Self { interpolator, values, plane, low, high })
     }
 
     /// The least that each component can be.
     #[must_use]
     pub fn low(&self) -> [f32; N] {
         self.low
+    }
+
+    /// Without perspective: the same values, pixel by pixel.
+    #[must_use]
+    pub fn plane(&self) -> Option<&Plane<N>> {
+        self.plane.as_ref()
     }
 
     /// The value at one position.
@@ -65,39 +72,19 @@ impl<const N: usize> Ramp<N> {
 
     /// What `make` makes of the values at `start`, `start` + (1, 0), and so on.
     pub fn fill<T>(&self, start: DVec2, out: &mut [T], make: impl Fn([f32; N]) -> T) {
-        let Some((origin, [here, right, below])) = self.slopes else {
+        let Some(plane) = &self.plane else {
             for (i, out) in out.iter_mut().enumerate() {
                 let p = DVec2::new(start.x + i as f64, start.y);
                 let value = self.interpolator.interpolate(p, &self.values);
-                *out = make(self.clamp(value.map(|v| v as f32)));
+                *out = make(clamp(value.map(|v| v as f32), &self.low, &self.high));
             }
             return;
         };
-        let y = (start.y - origin.y) as f32;
-        let mut left = here;
-        for (left, below) in left.iter_mut().zip(below) {
-            *left += below * y;
-        }
+        let left = plane.left(start.y);
         let mut column = start.x;
         for out in out {
-            let x = (column - origin.x) as f32;
+            *out = make(plane.along(left, column));
             column += 1.0;
-            let mut value = left;
-            for (value, right) in value.iter_mut().zip(right) {
-                *value += right * x;
-            }
-            *out = make(self.clamp(value));
         }
-    }
-
-    /// A NaN becomes the lower bound.
-    #[inline(always)]
-    fn clamp(&self, mut value: [f32; N]) -> [f32; N] {
-        for (v, (low, high)) in value.iter_mut().zip(self.low.iter().zip(self.high)) {
-            // Comparisons in this form are one instruction each.
-            let above = if *v > *low { *v } else { *low };
-            *v = if above < high { above } else { high };
-        }
-        value
     }
 }

@@ -87,10 +87,17 @@ impl TileGrid {
 /// ```
 #[derive(Debug, Clone)]
 pub struct TileBins {
-    /// Per band: the rectangles that begin in it, in their order.
-    starting: Vec<Vec<Entry>>,
+    /// In the order of their numbers.
+    parts: Vec<BandStarts>,
     /// Those that touch the band at hand, in their order.
     active: Vec<Entry>,
+}
+
+/// Some of the rectangles of [`TileBins`], by the band in which they begin: parts of a long list can
+/// be made side by side.
+#[derive(Debug, Clone)]
+pub struct BandStarts {
+    bands: Vec<Vec<Entry>>,
 }
 
 /// The tiles that a rectangle touches. Kept with its number, since the rectangles of a band lie all
@@ -102,31 +109,63 @@ struct Entry {
     last_band: u32,
 }
 
-impl TileBins {
-    /// Prepares rectangles, up to 2³² of them; what lies outside the grid is left out.
+impl BandStarts {
+    /// Prepares rectangles, which have numbers from `first` on; what lies outside the grid is left
+    /// out.
     #[must_use]
-    pub fn new(grid: TileGrid, rects: &[IntRect]) -> Self {
-        let mut starting = vec![Vec::new(); grid.bands()];
-        for (index, rect) in (0..).zip(rects) {
+    pub fn new(grid: TileGrid, first: u32, rects: &[IntRect]) -> Self {
+        let mut bands = vec![Vec::new(); grid.bands()];
+        for (index, rect) in (first..).zip(rects) {
             let rect = rect.intersect(&grid.area);
             if !rect.is_empty() {
                 let columns = grid.span(grid.area.x0, rect.x0, rect.x1);
                 let [first_band, last_band] = grid.span(grid.area.y0, rect.y0, rect.y1);
-                starting[first_band as usize].push(Entry { index, columns, last_band });
+                bands[first_band as usize].push(Entry { index, columns, last_band });
             }
         }
-        Self { starting, active: Vec::new() }
+        Self { bands }
+    }
+}
+
+impl TileBins {
+    /// Prepares rectangles, up to 2³² of them; what lies outside the grid is left out.
+    #[must_use]
+    pub fn new(grid: TileGrid, rects: &[IntRect]) -> Self {
+        Self::from_parts(vec![BandStarts::new(grid, 0, rects)])
+    }
+
+    /// The same from parts of one grid, in rising order of their numbers.
+    ///
+    /// ```
+    /// use scumble_geometry::{BandStarts, IntRect, TileBins, TileGrid};
+    ///
+    /// let grid = TileGrid::new(IntRect::new(0, 0, 64, 32), 32);
+    /// let rects = [IntRect::new(0, 0, 40, 9), IntRect::new(5, 30, 6, 32)];
+    /// let part = |i: usize| BandStarts::new(grid, i as u32, &rects[i..=i]);
+    /// let mut bins = TileBins::from_parts(vec![part(0), part(1)]);
+    /// let mut lists = vec![Vec::new(); grid.columns()];
+    /// bins.fill(0, &mut lists);
+    /// assert_eq!(lists, [vec![0, 1], vec![0]]);
+    /// ```
+    #[must_use]
+    pub fn from_parts(parts: Vec<BandStarts>) -> Self {
+        Self { parts, active: Vec::new() }
     }
 
     /// Fills one list for each tile of a band with the numbers of the rectangles that touch it, in
     /// rising order. Bands must be asked for from the top on, each once.
     pub fn fill(&mut self, band: usize, lists: &mut [Vec<u32>]) {
         self.active.retain(|entry| entry.last_band as usize >= band);
-        if let Some(starting) = self.starting.get_mut(band) {
-            self.active.append(starting);
+        let kept = self.active.len();
+        for part in &mut self.parts {
+            if let Some(starting) = part.bands.get_mut(band) {
+                self.active.append(starting);
+            }
         }
-        // Two sorted runs: the standard sort finds and merges them in linear time.
-        self.active.sort_by_key(|entry| entry.index);
+        if kept > 0 {
+            // Two sorted runs: the standard sort finds and merges them in linear time.
+            self.active.sort_by_key(|entry| entry.index);
+        }
         lists.iter_mut().for_each(Vec::clear);
         for &Entry { index, columns: [first, last], .. } in &self.active {
             for list in lists.iter_mut().take(last as usize + 1).skip(first as usize) {

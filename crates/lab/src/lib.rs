@@ -19,6 +19,7 @@
 mod canvas;
 pub mod driver;
 pub mod exchange;
+pub mod gallery;
 pub mod map;
 mod math;
 pub mod peers;

@@ -1,5 +1,7 @@
-//! `lab assets DIR` draws the assets into a folder; `lab assets DIR --check` compares.
+//! `lab assets DIR` draws the assets into a folder, `lab gallery DIR` the gallery; with `--check` they
+//! compare instead.
 
+use std::error::Error;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -9,8 +11,10 @@ fn main() -> ExitCode {
     let done = match args.as_slice() {
         ["assets", folder] => assets(Path::new(folder), false),
         ["assets", folder, "--check"] => assets(Path::new(folder), true),
+        ["gallery", folder] => gallery(Path::new(folder), false),
+        ["gallery", folder, "--check"] => gallery(Path::new(folder), true),
         _ => {
-            eprintln!("usage: lab assets DIR [--check]");
+            eprintln!("usage: lab assets|gallery DIR [--check]");
             return ExitCode::from(2);
         }
     };
@@ -26,12 +30,20 @@ fn main() -> ExitCode {
     }
 }
 
-fn assets(folder: &Path, check: bool) -> Result<String, lab::LabError> {
-    let files = lab::assets()?;
+fn assets(folder: &Path, check: bool) -> Result<String, Box<dyn Error>> {
+    keep(folder, check, &lab::assets()?)
+}
+
+fn gallery(folder: &Path, check: bool) -> Result<String, Box<dyn Error>> {
+    keep(folder, check, &lab::gallery::files()?)
+}
+
+/// Writes the files, or compares them with what stands there.
+fn keep(folder: &Path, check: bool, files: &[lab::Asset]) -> Result<String, Box<dyn Error>> {
     if check {
-        lab::check(folder, &files)?;
+        lab::check(folder, files)?;
     } else {
-        lab::write(folder, &files)?;
+        lab::write(folder, files)?;
     }
     let total: usize = files.iter().map(|f| f.bytes.len()).sum();
     let verb = if check { "match" } else { "written" };

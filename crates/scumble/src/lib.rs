@@ -19,6 +19,7 @@ mod render;
 mod schedule;
 mod settings;
 mod sink;
+mod strips;
 mod textures;
 mod tile;
 pub mod warp;

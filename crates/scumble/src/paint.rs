@@ -2,7 +2,8 @@
 
 use crate::painter::centre;
 use crate::plan::Surface;
-use scumble_geometry::{DVec2, Homography, IntRect, Matrix2, Ramp};
+use scumble_framebuffer::PixelColors;
+use scumble_geometry::{DVec2, Homography, IntRect, Matrix2, Plane, Ramp};
 use scumble_pixel::Premul;
 use scumble_texture::{Footprint, Sampler, Texture};
 
@@ -72,6 +73,23 @@ impl Textured {
     }
 }
 
+/// The colours of a row, each a plane.
+pub(crate) struct RowColors<'a> {
+    /// By key: at least one.
+    pub(crate) planes: &'a [Plane<4>],
+    /// The centre of the first pixel.
+    pub(crate) start: DVec2,
+}
+
+impl PixelColors for RowColors<'_> {
+    #[inline(always)]
+    fn at(&self, key: u32, x: f64) -> Premul {
+        // Not a branch: what keys follow each other nothing could guess.
+        let plane = &self.planes[(key as usize).min(self.planes.len() - 1)];
+        Premul(plane.at(DVec2::new(self.start.x + x, self.start.y)))
+    }
+}
+
 impl Paint {
     /// Whether every pixel is opaque.
     pub(crate) fn is_opaque(&self) -> bool {
@@ -79,6 +97,15 @@ impl Paint {
             Self::Solid(color) => color.alpha() >= 1.0,
             Self::Gouraud(ramp) => ramp.low()[3] >= 1.0,
             Self::Textured(textured) => textured.opaque,
+        }
+    }
+
+    /// The colour as a plane; of what is none, nothing.
+    pub(crate) fn plane(&self) -> Plane<4> {
+        match self {
+            Self::Solid(color) => Plane::constant(color.0),
+            Self::Gouraud(ramp) => ramp.plane().copied().unwrap_or(Plane::constant([0.0; 4])),
+            Self::Textured(_) => Plane::constant([0.0; 4]),
         }
     }
 

@@ -1,18 +1,20 @@
 //! From a scene to primitives: transformed, flattened, snapped, with textures built.
 
 use crate::paint::{Paint, Textured};
+use crate::schedule::Pool;
 use crate::{Antialias, Interpolation, Settings};
 use scumble_coverage::Shape;
 use scumble_geometry::{
-    Affine, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Path, PathElement, Ramp, Rect,
-    clip_segment, line_quad,
+    Affine, BandStarts, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Path, PathElement,
+    Ramp, Rect, TileBins, TileGrid, clip_segment, line_quad,
 };
 use scumble_pixel::{Premul, Straight};
 use scumble_scene::{
     Command, Fill, GouraudTriangle, Hairline, ImageId, ImageQuad, Point, Scene, Stroke,
-    TexturedTriangle,
+    TexturedTriangle, View,
 };
 use scumble_texture::{LevelMode, PixelFilter, Sampler, Texture};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// An image of the scene, ready to be sampled.
 #[derive(Debug)]
@@ -46,6 +48,8 @@ pub(crate) struct Draw {
 pub(crate) enum Effect {
     /// One opaque colour is seen there.
     Flat,
+    /// An opaque colour is seen there that changes evenly.
+    Ramps,
     /// The primitive is seen there, and nothing through it.
     Hides,
     /// Anything else.
@@ -75,68 +79,164 @@ pub(crate) struct Layer {
 /// What the tiles replay.
 #[derive(Debug)]
 pub(crate) struct Plan<'a> {
-    pub(crate) draws: Vec<Draw>,
-    /// By draw: the pixels of the canvas that it may touch. Apart from the rest, since it is asked
-    /// for much more often.
-    pub(crate) bounds: Vec<IntRect>,
+    parts: Vec<Part>,
     pub(crate) layers: Vec<Layer>,
-    /// About what the outlines take, in bytes.
-    pub(crate) outline_bytes: u64,
     /// By image index; `None` where no command uses the image.
     pub(crate) surfaces: &'a [Option<Surface>],
 }
 
-/// Makes the primitives of a scene for given settings.
+/// The primitives of some commands that follow each other.
+#[derive(Debug, Default)]
+struct Part {
+    /// The number of the first.
+    first: u32,
+    draws: Vec<Draw>,
+    /// By draw: the pixels of the canvas that it may touch. Apart from the rest, since it is asked
+    /// for much more often.
+    bounds: Vec<IntRect>,
+    /// The layers that the commands opened.
+    layers: Vec<Layer>,
+    /// Whether a command opens or closes a layer, which takes knowing what came before.
+    layered: bool,
+    /// About what the outlines take, in bytes.
+    outline_bytes: u64,
+}
+
+/// The fewest commands that are worth a part of their own.
+const LEAST_PART: usize = 1024;
+
+/// Parts for each thread: enough that a heavy one does not leave the others idle.
+const PARTS_PER_THREAD: usize = 4;
+
+/// The most parts: each has a list for every band.
+const MOST_PARTS: usize = 32;
+
+/// Makes the primitives of a scene for given settings, part by part where there are threads.
 pub(crate) fn build<'a>(
     scene: &Scene,
-    settings: &'a Settings,
+    settings: &Settings,
     surfaces: &'a [Option<Surface>],
+    pool: &Pool,
 ) -> Plan<'a> {
-    let canvas = IntRect::new(0, 0, settings.width as i32, settings.height as i32);
-    let mut planner = Planner {
-        settings,
-        view: scene.view.homography(settings.width, settings.height),
-        canvas,
-        layer: 0,
-        last: None,
-        plan: Plan {
-            draws: Vec::with_capacity(scene.commands.len()),
-            bounds: Vec::with_capacity(scene.commands.len()),
-            outline_bytes: 0,
-            layers: vec![Layer { parent: 0, opacity: 1.0, depth: 1 }],
-            surfaces,
-        },
-    };
-    for command in &scene.commands {
-        planner.command(command);
-        if planner.plan.outline_bytes > settings.max_memory {
-            break; // The caller refuses the plan; no need to make more of it.
-        }
+    let commands = &scene.commands[..];
+    let planner = || Planner::new(scene, settings, surfaces);
+    let mut parts = Vec::new();
+    if pool.threads() > 1 {
+        let count = (pool.threads() * PARTS_PER_THREAD).min(MOST_PARTS);
+        let step = commands.len().div_ceil(count).max(LEAST_PART);
+        let (whole, spent) = (step >= commands.len(), AtomicU64::new(0));
+        let make = |commands| planner().part(commands, whole, &spent);
+        parts = pool.map(commands.chunks(step).collect(), make);
     }
-    planner.layer = 0;
-    for ends in scene.view.frame(settings.width, settings.height).into_iter().flatten() {
-        planner.hairline_on_canvas(ends, Straight::BLACK);
+    if pool.threads() <= 1 || parts.len() > 1 && parts.iter().any(|part| part.layered) {
+        parts = vec![planner().part(commands, true, &AtomicU64::new(0))];
     }
-    planner.plan
+    parts.push(planner().frame(&scene.view));
+    let mut first = 0;
+    for part in &mut parts {
+        part.first = first;
+        first += part.draws.len() as u32;
+    }
+    let mut layers = vec![CANVAS];
+    layers.extend(parts.iter_mut().flat_map(|part| part.layers.drain(..)));
+    Plan { parts, layers, surfaces }
 }
+
+impl Plan<'_> {
+    /// How many primitives there are.
+    pub(crate) fn len(&self) -> usize {
+        self.parts.iter().map(|part| part.draws.len()).sum()
+    }
+
+    /// What the primitives take, in bytes; their outlines about.
+    pub(crate) fn bytes(&self) -> u64 {
+        let of = |part: &Part| {
+            let draws = size_of_val(&part.draws[..]) + size_of_val(&part.bounds[..]);
+            draws as u64 + part.outline_bytes
+        };
+        self.parts.iter().map(of).fold(0, u64::saturating_add)
+    }
+
+    /// The tiles that each primitive touches.
+    pub(crate) fn bins(&self, grid: TileGrid, pool: &Pool) -> TileBins {
+        let parts = self.parts.iter().collect();
+        let starts = |part: &Part| BandStarts::new(grid, part.first, &part.bounds);
+        TileBins::from_parts(pool.map(parts, starts))
+    }
+
+    /// Primitives by their numbers, which rise, each with its bounds.
+    pub(crate) fn draws(&self, list: &[u32]) -> impl Iterator<Item = (&Draw, IntRect)> {
+        let mut parts = &self.parts[..];
+        list.iter().map(move |&number| {
+            while let [_, next, ..] = parts
+                && next.first <= number
+            {
+                parts = &parts[1..];
+            }
+            let place = (number - parts[0].first) as usize;
+            (&parts[0].draws[place], parts[0].bounds[place])
+        })
+    }
+}
+
+/// Layer 0.
+const CANVAS: Layer = Layer { parent: 0, opacity: 1.0, depth: 1 };
 
 struct Planner<'a> {
     settings: &'a Settings,
+    surfaces: &'a [Option<Surface>],
     view: Homography,
     canvas: IntRect,
     layer: u32,
     /// The last transform, and what came of it: most have the one of the primitive before.
     last: Option<(Homography, Homography)>,
-    plan: Plan<'a>,
+    part: Part,
 }
 
-impl Planner<'_> {
+impl<'a> Planner<'a> {
+    fn new(scene: &Scene, settings: &'a Settings, surfaces: &'a [Option<Surface>]) -> Self {
+        Self {
+            settings,
+            surfaces,
+            view: scene.view.homography(settings.width, settings.height),
+            canvas: IntRect::new(0, 0, settings.width as i32, settings.height as i32),
+            layer: 0,
+            last: None,
+            part: Part::default(),
+        }
+    }
+
+    /// The primitives of some commands: of the `whole` scene, or else up to the first that does
+    /// something to layers. `spent` counts what all parts take for outlines.
+    fn part(mut self, commands: &[Command], whole: bool, spent: &AtomicU64) -> Part {
+        self.part.draws.reserve_exact(commands.len());
+        self.part.bounds.reserve_exact(commands.len());
+        for command in commands {
+            let before = self.part.outline_bytes;
+            self.command(command);
+            let more = self.part.outline_bytes - before;
+            // With too much the caller refuses the plan; no need to make more of it.
+            let refused = more > 0
+                && spent.fetch_add(more, Ordering::Relaxed) + more > self.settings.max_memory;
+            if refused || self.part.layered && !whole {
+                break;
+            }
+        }
+        self.part
+    }
+
+    /// The frame of a view, over everything.
+    fn frame(mut self, view: &View) -> Part {
+        for ends in view.frame(self.settings.width, self.settings.height).into_iter().flatten() {
+            self.hairline_on_canvas(ends, Straight::BLACK);
+        }
+        self.part
+    }
+
     fn command(&mut self, command: &Command) {
         match command {
             Command::PushLayer { opacity } => self.push_layer(*opacity),
-            Command::PopLayer => {
-                self.layer = self.plan.layers[self.layer as usize].parent;
-            }
+            Command::PopLayer => self.pop_layer(),
             Command::Fill(fill) => self.fill(fill),
             Command::Stroke(stroke) => self.stroke(stroke),
             Command::Gouraud(triangle) => self.gouraud(triangle),
@@ -148,10 +248,24 @@ impl Planner<'_> {
     }
 
     fn push_layer(&mut self, opacity: f32) {
-        let depth = self.plan.layers[self.layer as usize].depth + 1;
+        let depth = self.layer().depth + 1;
         let layer = Layer { parent: self.layer, opacity: opacity.clamp(0.0, 1.0), depth };
-        self.layer = self.plan.layers.len() as u32;
-        self.plan.layers.push(layer);
+        self.part.layers.push(layer);
+        self.layer = self.part.layers.len() as u32;
+        self.part.layered = true;
+    }
+
+    fn pop_layer(&mut self) {
+        self.layer = self.layer().parent;
+        self.part.layered = true;
+    }
+
+    /// The open layer.
+    fn layer(&self) -> Layer {
+        match self.layer {
+            0 => CANVAS,
+            layer => self.part.layers[layer as usize - 1],
+        }
     }
 
     fn canvas_map(&mut self, transform: &Homography) -> Homography {
@@ -175,10 +289,11 @@ impl Planner<'_> {
             _ if self.settings.antialias == Antialias::Area => Effect::Blends,
             Paint::Solid(_) => Effect::Flat,
             _ if self.settings.per_sample() => Effect::Blends,
+            Paint::Gouraud(ramp) if ramp.plane().is_some() => Effect::Ramps,
             _ => Effect::Hides,
         };
-        self.plan.bounds.push(bounds);
-        self.plan.draws.push(Draw { form, paint, layer: self.layer, effect });
+        self.part.bounds.push(bounds);
+        self.part.draws.push(Draw { form, paint, layer: self.layer, effect });
     }
 
     /// Coordinates that are not finite draw nothing: readers refuse them long before.
@@ -190,7 +305,7 @@ impl Planner<'_> {
     }
 
     fn push_contours(&mut self, contours: &Contours, rule: FillRule, paint: Paint) {
-        self.plan.outline_bytes += contours.points.len() as u64 * EDGE_BYTES;
+        self.part.outline_bytes += contours.points.len() as u64 * EDGE_BYTES;
         let shape = Shape::polygon(contours.iter(), rule).ok().flatten();
         self.push_shape(shape, paint);
     }
@@ -331,7 +446,7 @@ impl Planner<'_> {
     }
 
     fn texture_size(&self, image: ImageId) -> Option<DVec2> {
-        let Surface { texture, .. } = self.plan.surfaces.get(image.0)?.as_ref()?;
+        let Surface { texture, .. } = self.surfaces.get(image.0)?.as_ref()?;
         Some(DVec2::new(texture.width() as f64, texture.height() as f64))
     }
 
@@ -342,7 +457,7 @@ impl Planner<'_> {
         sampler: Sampler,
         opacity: f32,
     ) -> Paint {
-        let surface = self.plan.surfaces.get(image.0).and_then(Option::as_ref);
+        let surface = self.surfaces.get(image.0).and_then(Option::as_ref);
         let opaque = opacity >= 1.0 && surface.is_some_and(|surface| surface.opaque);
         Paint::Textured(Box::new(Textured { map, surface: image.0, sampler, opacity, opaque }))
     }

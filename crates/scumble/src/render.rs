@@ -3,7 +3,7 @@ use crate::schedule::{self, Pool};
 use crate::tile::Job;
 use crate::{Background, Control, ImageSink, RenderError, Settings, Sink, Textures};
 use scumble_framebuffer::{Tile, Visibility};
-use scumble_geometry::{IntRect, TileBins, TileGrid};
+use scumble_geometry::{IntRect, TileGrid};
 use scumble_pixel::{Image, Premul};
 use scumble_scene::Scene;
 use std::convert::Infallible;
@@ -76,18 +76,18 @@ fn draw<S: Sink>(
 ) -> Result<Stats, RenderError<S::Error>> {
     let area = area(settings)?;
     let texture_bytes = textures.memory();
-    let plan = plan::build(scene, settings, &textures.surfaces);
+    let plan = plan::build(scene, settings, &textures.surfaces, pool);
     let grid = TileGrid::new(area, settings.tile_size);
-    check_memory(&plan, settings, &grid, pool.threads(), texture_bytes)?;
+    let spare = check_memory(&plan, settings, &grid, pool.threads(), texture_bytes)?;
     let stats = Stats {
         width: area.width(),
         height: area.height(),
-        primitives: plan.draws.len(),
+        primitives: plan.len(),
         texture_bytes,
         threads: pool.threads(),
     };
-    let job = Job { plan: &plan, settings, background: background(scene, settings) };
-    let bins = TileBins::new(grid, &plan.bounds);
+    let job = Job { plan: &plan, settings, background: background(scene, settings), spare };
+    let bins = plan.bins(grid, pool);
     sink.start(stats.width, stats.height).map_err(RenderError::Sink)?;
     schedule::run(&job, grid, bins, pool, sink, control)?;
     sink.finish().map_err(RenderError::Sink)?;
@@ -138,21 +138,23 @@ pub(crate) fn check_limit<E>(needed: u64, settings: &Settings) -> Result<(), Ren
     if needed > limit { Err(RenderError::Memory { needed, limit }) } else { Ok(()) }
 }
 
-/// The memory of the whole run, as far as it can be known before the first tile.
+/// The memory of the whole run, as far as it can be known before the first tile, must be within the
+/// limit. Tells what is left of that.
 fn check_memory<E>(
     plan: &Plan<'_>,
     settings: &Settings,
     grid: &TileGrid,
     threads: usize,
     texture_bytes: usize,
-) -> Result<(), RenderError<E>> {
+) -> Result<u64, RenderError<E>> {
     let (side, samples) = (settings.tile_size, settings.samples());
     let seen = Visibility::max_bytes(side, side, samples);
     let tile = seen + Tile::max_bytes(side, side, samples);
     let depth = plan.layers.iter().map(|layer| layer.depth).max().unwrap_or(1);
     let tiles = tile.saturating_mul(depth).saturating_mul(threads as u64);
     let rows = schedule::buffered_rows(grid, threads) as u64 * u64::from(grid.area().width()) * 4;
-    let draws = (size_of_val(&plan.draws[..]) + size_of_val(&plan.bounds[..])) as u64;
-    let all = [tiles, rows, draws, plan.outline_bytes, texture_bytes as u64];
-    check_limit(all.into_iter().fold(0, u64::saturating_add), settings)
+    let all = [tiles, rows, plan.bytes(), texture_bytes as u64];
+    let needed = all.into_iter().fold(0, u64::saturating_add);
+    check_limit(needed, settings)?;
+    Ok(settings.max_memory - needed)
 }

@@ -1,9 +1,11 @@
 //! Which tile when, on which thread, and the way of the rows to the sink.
 
+use crate::strips::{self, Wanted};
 use crate::tile::{Job, Workspace};
-use crate::{Control, RenderError, Sink};
+use crate::{Antialias, Control, RenderError, Sink};
 use scumble_geometry::{IntRect, TileBins, TileGrid};
 use std::ops::Range;
+use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
 
 /// Tiles in flight for each thread: enough that a heavy tile does not leave the others idle.
@@ -60,6 +62,22 @@ impl Pool {
             Self::Serial => (a(), b()),
             #[cfg(feature = "parallel")]
             Self::Parallel(pool) => pool.install(|| rayon::join(a, b)),
+        }
+    }
+
+    /// What becomes of each item, in their order.
+    pub(crate) fn map<T: Send, U: Send>(
+        &self,
+        items: Vec<T>,
+        f: impl Fn(T) -> U + Sync + Send,
+    ) -> Vec<U> {
+        match self {
+            Self::Serial => items.into_iter().map(f).collect(),
+            #[cfg(feature = "parallel")]
+            Self::Parallel(pool) => {
+                use rayon::iter::{IntoParallelIterator, ParallelIterator};
+                pool.install(|| items.into_par_iter().map(f).collect())
+            }
         }
     }
 
@@ -166,6 +184,7 @@ struct Groups<'a> {
 struct TileTask<'a> {
     rect: IntRect,
     list: &'a [u32],
+    strips: &'a [Wanted<'a>],
     rows: Vec<&'a mut [[u8; 4]]>,
 }
 
@@ -181,14 +200,19 @@ impl Groups<'_> {
         let width = grid.area().width() as usize;
         buffer.resize(self.rows(&bands).len() * width, [0; 4]);
         self.lists.resize_with(bands.len() * columns, Vec::new);
-        let mut tasks = Vec::with_capacity(self.lists.len());
-        let strips = buffer.chunks_mut(width * grid.side() as usize);
-        for ((band, strip), lists) in bands.zip(strips).zip(self.lists.chunks_mut(columns)) {
+        for (band, lists) in bands.clone().zip(self.lists.chunks_mut(columns)) {
             self.bins.fill(band, lists);
+        }
+        let found = self.strips(bands.clone());
+        let mut tasks = Vec::with_capacity(self.lists.len());
+        let pieces = buffer.chunks_mut(width * grid.side() as usize);
+        let lists = self.lists.chunks(columns).zip(&found);
+        for ((band, strip), (lists, strips)) in bands.zip(pieces).zip(lists) {
             let first = tasks.len();
             tasks.extend(lists.iter().enumerate().map(|(column, list)| TileTask {
                 rect: grid.tile(column, band),
                 list,
+                strips,
                 rows: Vec::with_capacity(grid.side() as usize),
             }));
             for row in strip.chunks_mut(width) {
@@ -199,16 +223,39 @@ impl Groups<'_> {
                 }
             }
         }
-        let (job, control, idle) = (self.job, self.control, &self.idle);
+        let (job, control) = (self.job, self.control);
         self.pool.for_each(tasks, |mut task| {
-            if control.is_cancelled() {
-                return;
+            if !control.is_cancelled() {
+                let lists = (task.list, task.strips);
+                self.with_workspace(|work| job.tile(work, task.rect, lists, &mut task.rows));
             }
-            // A poisoned lock means that another tile panicked; its workspace is gone, not ours.
-            let lock = || idle.lock().unwrap_or_else(PoisonError::into_inner);
-            let mut work = lock().pop().unwrap_or_default();
-            job.tile(&mut work, task.rect, task.list, &mut task.rows);
-            lock().push(work);
         });
+    }
+
+    /// What is found once for each of the bands.
+    fn strips(&self, bands: Range<usize>) -> Vec<Vec<Wanted<'_>>> {
+        let (job, grid) = (self.job, &self.grid);
+        let mut found: Vec<Vec<Wanted<'_>>> = Vec::with_capacity(bands.len());
+        if job.settings.antialias != Antialias::Area {
+            found.resize_with(bands.len(), Vec::new);
+            return found;
+        }
+        let lists = self.lists.chunks(grid.columns());
+        found.extend(bands.zip(lists).map(|(band, l)| strips::wanted(job.plan, grid, band, l)));
+        let spare = AtomicU64::new(job.spare.min(strips::MAX_BYTES));
+        self.pool.for_each(found.iter_mut().flatten().collect(), |wanted| {
+            if !self.control.is_cancelled() {
+                self.with_workspace(|work| wanted.find(grid, &spare, &mut work.scratch));
+            }
+        });
+        found
+    }
+
+    fn with_workspace(&self, f: impl FnOnce(&mut Workspace)) {
+        // A poisoned lock means that another tile panicked; its workspace is gone, not ours.
+        let lock = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut work = lock().pop().unwrap_or_default();
+        f(&mut work);
+        lock().push(work);
     }
 }

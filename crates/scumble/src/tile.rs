@@ -1,18 +1,19 @@
 //! One tile: replays its primitives in order, then resolves.
 
-use crate::paint::Paint;
+use crate::paint::{Paint, RowColors};
 use crate::painter::{Painter, Stamp, centre};
 use crate::plan::{Draw, Effect, Form, Plan};
+use crate::strips::{Strip, Wanted};
 use crate::{Antialias, Settings};
 use scumble_coverage::{Cover, Scratch, Sink, hairline};
 use scumble_framebuffer::{Palette, Tile, Visibility, encode_row};
-use scumble_geometry::IntRect;
+use scumble_geometry::{IntRect, Plane};
 use scumble_pixel::Premul;
 
 /// What a worker keeps from tile to tile, so that nothing is allocated in the steady state.
 #[derive(Debug, Default)]
 pub(crate) struct Workspace {
-    scratch: Scratch,
+    pub(crate) scratch: Scratch,
     /// What is seen, while all that is drawn is opaque.
     seen: Visibility,
     /// The canvas, then one tile for each open layer.
@@ -40,22 +41,25 @@ pub(crate) struct Job<'a> {
     pub(crate) plan: &'a Plan<'a>,
     pub(crate) settings: &'a Settings,
     pub(crate) background: Premul,
+    /// The bytes that are left for strips.
+    pub(crate) spare: u64,
 }
 
 impl Job<'_> {
-    /// Renders the pixels of `rect` with the primitives of `list` into `rows`.
+    /// Renders the pixels of `rect` with the primitives of `list` into `rows`; some have a strip.
     pub(crate) fn tile(
         &self,
         work: &mut Workspace,
         rect: IntRect,
-        list: &[u32],
+        (list, strips): (&[u32], &[Wanted<'_>]),
         rows: &mut [&mut [[u8; 4]]],
     ) {
-        let here = |&i: &u32| {
-            let i = i as usize;
-            Local { draw: &self.plan.draws[i], bounds: self.plan.bounds[i].intersect(&rect) }
+        let here = |(&i, (draw, bounds)): (&u32, (_, IntRect))| {
+            let found = strips.binary_search_by_key(&i, |wanted| wanted.draw).ok();
+            let strip = found.and_then(|at| strips[at].strip.as_ref());
+            Local { draw, bounds: bounds.intersect(&rect), strip }
         };
-        let locals: Vec<Local> = list.iter().map(here).collect();
+        let locals: Vec<Local> = list.iter().zip(self.plan.draws(list)).map(here).collect();
         let effect = effect(&locals, rect);
         let visible = effect != Effect::Blends;
         let mut all = work.lists.pop().unwrap_or_default();
@@ -83,6 +87,7 @@ impl Job<'_> {
         let space = self.settings.space;
         let palette =
             if effect == Effect::Flat { self.palette(locals) } else { Palette::new(space) };
+        let planes = if effect == Effect::Ramps { self.planes(locals) } else { Vec::new() };
         colors.clear();
         colors.resize(rect.width() as usize, Premul::TRANSPARENT);
         for (y, row) in (0..).zip(rows) {
@@ -90,6 +95,10 @@ impl Job<'_> {
                 Effect::Flat => {
                     seen.encode_row(y, &palette, row);
                     continue;
+                }
+                Effect::Ramps => {
+                    let start = centre(rect.x0, rect.y0 + y as i32);
+                    seen.shade_pixels(y, colors, &RowColors { planes: &planes, start });
                 }
                 Effect::Hides => seen.shade_row(y, colors, |key, x, out| {
                     let place = centre(rect.x0 + x as i32, rect.y0 + y as i32);
@@ -104,6 +113,12 @@ impl Job<'_> {
             }
             encode_row(colors, space, row);
         }
+    }
+
+    /// The colours of the background and of primitives, each a plane.
+    fn planes(&self, locals: &[Local<'_>]) -> Vec<Plane<4>> {
+        let background = std::iter::once(Plane::constant(self.background.0));
+        background.chain(locals.iter().map(|local| local.draw.paint.plane())).collect()
     }
 
     /// The colours of the background and of primitives that have but one.
@@ -123,6 +138,8 @@ struct Local<'a> {
     draw: &'a Draw,
     /// The pixels of the tile that it may touch.
     bounds: IntRect,
+    /// Its areas, if they have been found before.
+    strip: Option<&'a Strip>,
 }
 
 impl Local<'_> {
@@ -264,7 +281,7 @@ impl Replay<'_> {
     }
 
     fn draw(&mut self, index: u32, part: IntRect) {
-        let Local { draw, bounds } = self.locals[index as usize];
+        let Local { draw, bounds, strip } = self.locals[index as usize];
         let (job, clip, origin) = (self.job, part.intersect(&bounds), (self.rect.x0, self.rect.y0));
         if self.visible {
             let Workspace { scratch, seen, .. } = &mut *self.work;
@@ -275,6 +292,9 @@ impl Replay<'_> {
         let Workspace { scratch, stack, colors, .. } = &mut *self.work;
         let tile = &mut stack[self.layers.len() - 1];
         let mut painter = Painter { job, paint: &draw.paint, tile, origin, colors };
+        if let Some(strip) = strip {
+            return strip.replay(clip, &mut painter);
+        }
         match &draw.form {
             Form::Shape(shape) if job.settings.antialias == Antialias::Area => {
                 shape.rasterize_area(clip, scratch, &mut painter);

@@ -198,6 +198,46 @@ fn a_failing_sink_ends_the_run() {
 }
 
 /// A command of any kind somewhere on or off the canvas.
+/// Enough commands for several parts, over one another in an order that shows.
+fn crowd(colors: [Straight; 3]) -> Vec<Command> {
+    let triangle = |i: u32| {
+        let at = |k: u32, n: u32| f64::from(i * k % n) + f64::from(i % 16) / 16.0;
+        let corner = DVec2::new(at(37, 60), at(23, 44));
+        let points = [corner, corner + DVec2::new(at(3, 9), 1.0), corner + DVec2::new(2.0, 5.0)];
+        let mut colors = colors;
+        colors.rotate_left(i as usize % 3);
+        colors[0].0[1] = (i % 101) as f32 / 100.0;
+        Command::Gouraud(GouraudTriangle { points, colors, transform: Homography::IDENTITY })
+    };
+    (0..9000).map(triangle).collect()
+}
+
+#[test]
+fn long_lists_are_one_list_on_any_number_of_threads() {
+    let faded = |mut commands: Vec<Command>| {
+        commands.insert(4000, Command::PushLayer { opacity: 0.7 });
+        commands.insert(7000, Command::PopLayer);
+        commands
+    };
+    let ramps = crowd([RED, BLUE, Straight::WHITE]);
+    for commands in [crowd([RED; 3]), faded(ramps.clone()), ramps] {
+        let scene = scene(commands);
+        for samples in [1, 4, 8] {
+            let settings = Settings {
+                pattern: SamplePattern::standard(samples).unwrap(),
+                tile_size: 16,
+                threads: 1,
+                ..Settings::new(64, 48)
+            };
+            let picture = render_image(&scene, &settings).unwrap();
+            for threads in [2, 5] {
+                let side_by_side = render_image(&scene, &Settings { threads, ..settings.clone() });
+                assert!(side_by_side.unwrap() == picture, "{samples} samples, {threads} threads");
+            }
+        }
+    }
+}
+
 fn any_command() -> impl Strategy<Value = Command> {
     let coordinate = -20.0..90.0f64;
     let point = (coordinate.clone(), coordinate).prop_map(|(x, y)| DVec2::new(x, y));

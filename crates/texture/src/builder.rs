@@ -40,11 +40,35 @@ pub struct TextureBuilder<P, A> {
     size: [usize; 2],
     options: TextureOptions,
     decoder: Decoder<P, A>,
-    making: Making<Texel>,
+    making: Work,
     /// Rows that have come.
     rows: usize,
     /// The last row that is needed, and one.
     end: usize,
+}
+
+/// The pyramid in the making.
+#[derive(Debug, Clone)]
+enum Work {
+    Compact(Making<Texel>),
+    Float(Making<[f32; 4]>),
+}
+
+impl Work {
+    fn rows(&self) -> Range<usize> {
+        match self {
+            Self::Compact(making) => making.rows(),
+            Self::Float(making) => making.rows(),
+        }
+    }
+
+    /// The row that must come next.
+    fn next(&self) -> Option<usize> {
+        match self {
+            Self::Compact(making) => making.next(),
+            Self::Float(making) => making.next(),
+        }
+    }
 }
 
 impl<P: Channels, A: Alpha> TextureBuilder<P, A> {
@@ -87,7 +111,11 @@ impl<P: Channels, A: Alpha> TextureBuilder<P, A> {
         Texture::check(size, options)?;
         let decoder = Decoder::new(format, options.space, width.saturating_mul(height));
         let old = old.map_or(Vec::new(), |old| old.levels);
-        let making = Making::new(size, options, old)?;
+        let making = if options.storage.is_float(format.is_of_bytes()) {
+            Work::Float(Making::new(size, options, old)?)
+        } else {
+            Work::Compact(Making::new(size, options, old)?)
+        };
         let end = making.rows().end;
         Ok(Self { size, options: *options, decoder, making, rows: 0, end })
     }
@@ -111,7 +139,10 @@ impl<P: Channels, A: Alpha> TextureBuilder<P, A> {
             return Err(TextureError::Row { row: self.rows });
         }
         if self.making.next() == Some(self.rows) {
-            self.making.push(&self.decoder, row);
+            match &mut self.making {
+                Work::Compact(making) => making.push(&self.decoder, row),
+                Work::Float(making) => making.push(&self.decoder, row),
+            }
         }
         self.rows += 1;
         Ok(())
@@ -143,9 +174,13 @@ impl<P: Channels, A: Alpha> TextureBuilder<P, A> {
     /// # Errors
     /// [`TextureError::Incomplete`] if a row that matters has not come.
     pub fn finish(self) -> Result<Texture, TextureError> {
-        match self.making.next() {
-            Some(row) => Err(TextureError::Incomplete { row }),
-            None => Texture::over(self.making.finish(), self.size, &self.options),
+        if let Some(row) = self.making.next() {
+            return Err(TextureError::Incomplete { row });
         }
+        let levels = match self.making {
+            Work::Compact(making) => making.finish(),
+            Work::Float(making) => making.finish(),
+        };
+        Texture::over(levels, self.size, &self.options, self.decoder.is_bounded())
     }
 }

@@ -87,6 +87,17 @@ impl Taps {
         self.weights(i.rem_euclid(self.outputs as i32) as usize)
     }
 
+    /// The inputs of some outputs as rows that come: after mirroring, but before repeating.
+    #[cfg(feature = "parallel")]
+    pub(crate) fn rows_of(&self, [first, end]: [i32; 2]) -> [i32; 2] {
+        if self.mirrors() {
+            let Span { start, end } =
+                self.inputs_of(Span { start: first as usize, end: end as usize });
+            return [start as i32, end as i32];
+        }
+        [self.first(first), self.first(end - 1) + self.count as i32]
+    }
+
     /// Whether all outputs have the weights of the first, each two texels on.
     #[inline(always)]
     pub(crate) fn is_even(&self) -> bool {

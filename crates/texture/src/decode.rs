@@ -65,6 +65,11 @@ impl<P: Channels, A: Alpha> Decoder<P, A> {
         decoder
     }
 
+    /// Whether no colour can be negative or above its alpha.
+    pub(crate) fn is_bounded(&self) -> bool {
+        self.format.is_bounded()
+    }
+
     /// The texels of pixels.
     #[inline(always)]
     pub(crate) fn row<T: Cell>(&self, lanes: impl Lanes, pixels: &[P], out: &mut [T]) {
@@ -138,15 +143,7 @@ impl<P: Channels, A: Alpha> Decoder<P, A> {
     /// What a channel says, finite.
     #[inline(always)]
     fn value(&self, c: P::Channel) -> f32 {
-        let v = if self.format.halves { half(c.code()) } else { c.value() };
-        // Written so that a NaN is 0.
-        if v > 0.0 {
-            v.min(LARGEST)
-        } else if v < 0.0 {
-            v.max(-LARGEST)
-        } else {
-            0.0
-        }
+        finite(if self.format.halves { half(c.code()) } else { c.value() })
     }
 
     /// The texel of a pixel's values.
@@ -154,12 +151,14 @@ impl<P: Channels, A: Alpha> Decoder<P, A> {
     fn texel<T: Cell>(&self, [r, g, b, a]: [f32; 4]) -> T {
         let a = unit(a);
         let color = [r, g, b];
+        let bounded = self.format.is_bounded();
         match self.curve {
-            None if A::PREMULTIPLIED => premultiplied(color, a),
+            None if A::PREMULTIPLIED => premultiplied(color, a, bounded),
             Some(curve) if A::PREMULTIPLIED => {
                 // What has no alpha is light that is added, and stands for itself.
                 let share = if a > 0.0 { a } else { 1.0 };
-                premultiplied(color.map(|v| curve(limited::<T>(v / share)) * share), a)
+                let color = color.map(|v| limited::<T>(curve(limited::<T>(v / share))) * share);
+                premultiplied(color, a, bounded)
             }
             None => straight(color, a),
             Some(curve) => straight(color.map(|v| curve(limited::<T>(v))), a),
@@ -167,10 +166,22 @@ impl<P: Channels, A: Alpha> Decoder<P, A> {
     }
 }
 
-/// A number brought to 0…1 where no other is kept.
+/// A number brought to 0…1 where no other is kept, else to what is finite.
 #[inline(always)]
 fn limited<T: Cell>(v: f32) -> f32 {
-    if T::ROUNDS { unit(v) } else { v }
+    if T::ROUNDS { unit(v) } else { finite(v) }
+}
+
+/// A number brought to within [`LARGEST`]; 0 for a NaN.
+#[inline(always)]
+fn finite(v: f32) -> f32 {
+    if v > 0.0 {
+        v.min(LARGEST)
+    } else if v < 0.0 {
+        v.max(-LARGEST)
+    } else {
+        0.0
+    }
 }
 
 /// A number brought to 0…1.
@@ -190,8 +201,9 @@ fn straight<T: Cell>(color: [f32; 3], a: f32) -> T {
 
 /// The texel of a premultiplied colour.
 #[inline(always)]
-fn premultiplied<T: Cell>(color: [f32; 3], a: f32) -> T {
-    let [r, g, b] = color.map(|v| if T::ROUNDS { v.max(0.0).min(a) } else { v });
+fn premultiplied<T: Cell>(color: [f32; 3], a: f32, bounded: bool) -> T {
+    let bounded = T::ROUNDS || bounded;
+    let [r, g, b] = color.map(|v| if bounded { v.max(0.0).min(a) } else { v });
     T::of_color([r, g, b, a])
 }
 

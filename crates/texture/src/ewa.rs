@@ -6,7 +6,7 @@ use crate::gaussian::UNIT;
 use crate::lod::{self, Pick, half_octaves};
 use crate::point::lerp;
 use crate::walk::Walk;
-use crate::{Footprint, LevelMode, Sampler, Texture};
+use crate::{Footprint, LevelMode, Sampler, Texture, walk_float};
 use scumble_geometry::Matrix2;
 
 /// The area of an ellipse, in texels of the level that is read, that is always allowed. A larger
@@ -100,7 +100,11 @@ impl<'a> Plan<'a> {
 
     #[inline(always)]
     fn filter(&self, engine: impl Engine, index: usize) -> [f32; 4] {
-        engine.walk(&self.t.levels[index], self.t.wrap, &self.walk(index))
+        let (level, walk) = (&self.t.levels[index], self.walk(index));
+        if level.is_float() {
+            return walk_float::walk(level, self.t.wrap, &walk);
+        }
+        engine.walk(level, self.t.wrap, &walk)
     }
 }
 

@@ -4,7 +4,7 @@
 
 use crate::classic::Classic;
 use crate::radial::Radial;
-use crate::texture::{into_range, point_mode};
+use crate::texture::point_mode;
 use crate::{Footprint, Kernel, Magnify, PixelFilter, Sampler, Separable, Texture};
 use crate::{place, point, probes};
 use fearless_simd::dispatch;
@@ -92,8 +92,8 @@ impl Area {
         }
         for ((out, f), &near) in out.iter_mut().zip(footprints).zip(near) {
             if near > 0.0 {
-                let magnified = into_range(magnified(t, f, s.magnify));
-                *out = if near < 1.0 { mix(*out, magnified, near) } else { magnified };
+                let magnified = t.within_range(magnified(t, f, s.magnify));
+                *out = if near < 1.0 { mix(t, *out, magnified, near) } else { magnified };
             }
         }
     }
@@ -109,7 +109,7 @@ impl Area {
                 let mode = point_mode(s);
                 for (out, f) in out.iter_mut().zip(footprints) {
                     let f = t.nearer(f);
-                    let color = || into_range(place::sample(t, &f, mode, *kernel));
+                    let color = || t.within_range(place::sample(t, &f, mode, *kernel));
                     *out = if f.is_finite() { color() } else { t.average() };
                 }
             }
@@ -133,7 +133,8 @@ fn each(
 ) {
     for (out, f) in out.iter_mut().zip(footprints) {
         let f = t.nearer(f);
-        *out = if f.is_finite() && f.is_bounded() { into_range(sample(&f)) } else { t.average() };
+        *out =
+            if f.is_finite() && f.is_bounded() { t.within_range(sample(&f)) } else { t.average() };
     }
 }
 
@@ -144,10 +145,10 @@ fn magnified(t: &Texture, f: &Footprint, magnify: Magnify) -> [f32; 4] {
     if f.is_finite() { magnify.sample(&t.levels[0], t.wrap, &f) } else { t.average().0 }
 }
 
-/// a + (b − a)·t, no brighter than its alpha.
+/// a + (b − a)·part, no brighter than its alpha.
 #[inline(always)]
-fn mix(a: Premul, b: Premul, t: f32) -> Premul {
-    into_range(point::lerp(a.0, b.0, t))
+fn mix(t: &Texture, a: Premul, b: Premul, part: f32) -> Premul {
+    t.within_range(point::lerp(a.0, b.0, part))
 }
 
 /// Texels that a sample reads, those of weight 0 included; the centre has been brought near.

@@ -301,6 +301,15 @@ impl<P: Channels, A: Alpha> TexelFormat<P, A> {
     pub fn in_light(self) -> Self {
         Self { light: true, ..self }
     }
+
+    pub(crate) fn is_of_bytes(&self) -> bool {
+        P::Channel::CODES == 256
+    }
+
+    /// Whether no colour can be negative or above its alpha.
+    pub(crate) fn is_bounded(&self) -> bool {
+        P::Channel::CODES > 0 && !self.halves
+    }
 }
 
 impl<P: Channels<Channel = u16>, A: Alpha> TexelFormat<P, A> {
@@ -315,8 +324,8 @@ impl<P: Channels<Channel = u16>, A: Alpha> TexelFormat<P, A> {
 ///
 /// The view may be of foreign memory and have a stride. Whole numbers are taken for sRGB-encoded,
 /// floats for linear light, unless [`Texels::encoded`] or [`Texels::in_light`] says otherwise. Alpha is
-/// never encoded. Numbers outside 0…1 are brought back to it, and a NaN is 0: a texture's samples lie
-/// in 0…1, so what is brighter is not kept.
+/// never encoded, and is brought to 0…1. Colours are kept as they are, whatever their brightness, if
+/// they are stored as floats ([`Storage`](crate::Storage)), else brought to 0…1; a NaN is 0.
 ///
 /// ```
 /// use scumble_pixel::ImageView;

@@ -1,5 +1,5 @@
 use crate::pyramid::plan::Span;
-use crate::texel::{Cell, Texel, color, of_color};
+use crate::texel::{Cell, STEP, Texel, color, of_color, steps};
 use crate::{TextureError, Wrap};
 use alloc::{vec, vec::Vec};
 
@@ -16,7 +16,10 @@ pub(crate) struct Level {
     /// Columns and rows that are kept.
     pub(crate) part: [Span; 2],
     pub(crate) stride: usize,
+    /// Texels in steps; none if they are floats.
     pub(crate) texels: Vec<Texel>,
+    /// Texels as floats; none if they are in steps.
+    pub(crate) floats: Vec<[f32; 4]>,
     /// The index in `texels` of texel (0, 0), which may not be kept, below zero: what is to be taken
     /// off y·stride + x.
     pub(crate) base: i32,
@@ -93,8 +96,17 @@ impl Level {
         // Whatever wraps around here wraps back where it is taken off.
         let base =
             (rows.start as i32).wrapping_mul(stride as i32).wrapping_add(columns.start as i32);
-        let mut level =
-            Self { width, height, part, stride, texels: Vec::new(), base, mask: [-1; 2], frame };
+        let mut level = Self {
+            width,
+            height,
+            part,
+            stride,
+            texels: Vec::new(),
+            floats: Vec::new(),
+            base,
+            mask: [-1; 2],
+            frame,
+        };
         *T::memory(&mut level) = if old.len() == len {
             old
         } else {
@@ -118,6 +130,7 @@ impl Level {
     pub(crate) fn make_tile(&mut self) {
         let Self { width, height, stride, part, .. } = *self;
         let columns = part[0].len();
+        // Floats are read one by one where they wrap.
         for row in self.texels.chunks_exact_mut(stride) {
             for i in 0..APRON {
                 row[columns + i] = row[if columns == width { i % columns } else { columns - 1 }];
@@ -180,6 +193,48 @@ impl Level {
     /// The colour of the texel at (x, y), which may lie outside.
     #[inline(always)]
     pub(crate) fn texel(&self, x: i32, y: i32, wrap: Wrap) -> [f32; 4] {
-        color(self.stored(x, y, wrap))
+        if !self.is_float() {
+            return color(self.stored(x, y, wrap));
+        }
+        match (wrap.resolve(x, self.width), wrap.resolve(y, self.height)) {
+            (Some(x), Some(y)) => self.floats[self.start(y) + self.part[0].place(x)],
+            _ => wrap.border(),
+        }
+    }
+
+    /// Whether texels are floats.
+    #[inline(always)]
+    pub(crate) fn is_float(&self) -> bool {
+        !self.floats.is_empty()
+    }
+
+    /// What a number of a texel is counted in: [`STEP`] or 1.
+    #[inline(always)]
+    pub(crate) fn unit(&self) -> f32 {
+        if self.is_float() { 1.0 } else { STEP }
+    }
+
+    /// The colour of the texel at (x, y) in [`Level::unit`]s.
+    #[inline(always)]
+    pub(crate) fn numbers(&self, x: i32, y: i32, wrap: Wrap) -> [f32; 4] {
+        if self.is_float() { self.texel(x, y, wrap) } else { steps(self.stored(x, y, wrap)) }
+    }
+
+    /// The mean of the texels that are kept.
+    pub(crate) fn mean(&self) -> [f32; 4] {
+        let [columns, rows] = self.part;
+        let mut sum = [0.0; 4];
+        let mut rest = [0i64; 4];
+        for y in rows.start..rows.end {
+            let start = self.start(y);
+            for t in self.floats.get(start..start + columns.len()).unwrap_or(&[]) {
+                (0..4).for_each(|c| sum[c] += f64::from(t[c]));
+            }
+            for t in self.texels.get(start..start + columns.len()).unwrap_or(&[]) {
+                (0..4).for_each(|c| rest[c] += i64::from(t[c]));
+            }
+        }
+        let n = columns.len() as f64 * rows.len() as f64;
+        core::array::from_fn(|c| ((sum[c] + rest[c] as f64) / n) as f32 * self.unit())
     }
 }

@@ -58,6 +58,7 @@
 //! - [`PixelFilter::Separable`]: plain interpolation, for what is only ever magnified.
 //! - [`Probes`]: anisotropic filtering of anything that can average a round spot; [`procedural`] has
 //!   sources that are functions, and the ground grid of 3-D viewports.
+//! - [`maps`]: levels of cut-outs and of normal maps.
 //! - [`Texels`]: images of one to four channels, in 8 and 16 bits, half floats and floats, in foreign
 //!   memory, with the alpha's kind in the type.
 //! - [`compare`] and [`Sampler::CLASSIC`]: what others do.
@@ -65,15 +66,17 @@
 //! # Cost
 //!
 //! - Memory: 8 bytes a texel, four numbers of 16 bits in steps of 1/16,320 (64 to a code of eight bits),
-//!   and a third more for the pyramid. Rounding to a step is noise at −95 dB. Values beyond −¼…1¼ are
-//!   cut to that when they are stored.
+//!   and a third more for the pyramid. Rounding to a step is noise at −95 dB. Images in more than eight
+//!   bits and in floats are stored as floats, 16 bytes a texel, as bright as they are ([`Storage`]).
+//! - Only what is asked for is made and kept: [`Levels`] says which levels, [`TextureOptions::window`]
+//!   which part of the image, and [`TextureBuilder`] takes rows as a decoder yields them.
 //! - A pixel of the ground plane, on one core of a server (Zen 4, 512-bit vectors) by
 //!   [`Texture::sample_row`]: nearest 5 ns, bilinear 10, trilinear 14, [`Sampler::FAST`] 58,
 //!   [`Sampler::DEFAULT`] 84, of which 15 to 20 are set-up; every texel that an ellipse reads takes about
 //!   one more. [`Texture::sample`] sets up one pixel at a time and is slower; runs of four and more
 //!   pixels are worth a row.
-//! - A pyramid takes as long to make as fresh memory from the system does, or up to twice that:
-//!   [`Texture::renewed`] makes one in the memory of another.
+//! - A pyramid takes about as long to make as fresh memory from the system does: [`Texture::renewed`]
+//!   makes one in the memory of another.
 //!
 //! # Example
 //!
@@ -124,6 +127,7 @@ mod kernel;
 mod level;
 mod lod;
 mod magnify;
+pub mod maps;
 mod math;
 mod mixture;
 mod names;
@@ -143,6 +147,7 @@ mod taps;
 mod texel;
 mod texture;
 mod walk;
+mod walk_float;
 mod walk_simd;
 mod wrap;
 
@@ -155,7 +160,7 @@ pub use format::{
 pub use kernel::{Kernel, RadialFilter};
 pub use magnify::Magnify;
 pub use names::UnknownName;
-pub use options::{Decimation, Levels, TextureOptions};
+pub use options::{Decimation, Levels, Storage, TextureOptions};
 pub use probes::Probes;
 pub use sampler::{LevelMode, PixelFilter, Sampler};
 pub use separable::Separable;

@@ -4,8 +4,7 @@ use crate::engine::Engine;
 use crate::level::Level;
 use crate::lod::{self, Pick};
 use crate::math::{floor, whole};
-use crate::texel::{STEP, Texel, steps};
-use crate::texture::into_range;
+use crate::texel::{Texel, steps};
 use crate::{Footprint, LevelMode, Texture, Wrap};
 use scumble_pixel::Premul;
 
@@ -17,7 +16,7 @@ pub(crate) fn lerp(a: [f32; 4], b: [f32; 4], t: f32) -> [f32; 4] {
 
 /// A filter of a place in a level.
 pub(crate) trait Point: Copy {
-    /// The colours, in steps, at places given in texels of level 0.
+    /// The colours, in the level's unit, at places given in texels of level 0.
     ///
     /// One loop for the indices, which has no branch, and one for the texels.
     fn colors<const N: usize>(
@@ -51,6 +50,9 @@ impl Point for Nearest {
         for i in 0..N {
             x[i] = whole(floor(u[i] * su)) & level.mask[0];
             y[i] = whole(floor(v[i] * sv)) & level.mask[1];
+        }
+        if level.is_float() {
+            return core::array::from_fn(|i| level.texel(x[i], y[i], wrap));
         }
         let mut texels = [[0; 4]; N];
         if holds(level, &x, &y, 1) {
@@ -92,6 +94,15 @@ impl Point for Bilinear {
         }
         let inside = holds(level, &x, &y, 2);
         let mut colors = [[0.0; 4]; N];
+        if level.is_float() {
+            for i in 0..N {
+                let texel = |down, right| level.texel(x[i] + right, y[i] + down, wrap);
+                let left = lerp(texel(0, 0), texel(1, 0), fy[i]);
+                let right = lerp(texel(0, 1), texel(1, 1), fy[i]);
+                colors[i] = lerp(left, right, fx[i]);
+            }
+            return colors;
+        }
         for i in 0..N {
             let top = level.index(x[i], y[i]);
             let bottom = top.wrapping_add(level.stride);
@@ -258,8 +269,9 @@ impl<const N: usize> Places<N> {
                 *color = lerp(*color, next, coarser);
             }
         }
+        let unit = t.levels[index].unit();
         for (out, color) in out.iter_mut().zip(colors) {
-            *out = into_range(color.map(|v| v * STEP));
+            *out = t.within_range(color.map(|v| v * unit));
         }
     }
 }

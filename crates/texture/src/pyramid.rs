@@ -5,6 +5,8 @@
 //! level. So every row is in the cache when it is used, what is not kept is never in memory as a whole,
 //! and rows may come as a decoder yields them. Each texel is rounded once, as it is stored.
 
+#[cfg(feature = "parallel")]
+mod bands;
 mod build;
 mod cascade;
 mod filter;

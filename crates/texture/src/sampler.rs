@@ -93,7 +93,9 @@ impl Sampler {
     /// For print and masters.
     pub const HIGH: Self =
         Self { max_eccentricity: 64.0, least_sigma: 0.8, magnify: Magnify::Taps, ..Self::DEFAULT };
-    /// Truth for tests: up to ten times the texels of the default, where the texture is far away.
+    /// Truth for tests: up to ten times the texels of the default, where the texture is far away. Over
+    /// a texture in steps of 16 bits their rounding is what is left of the error; where that counts, ask
+    /// for [`Storage::Float`](crate::Storage::Float).
     pub const REFERENCE: Self = Self {
         max_eccentricity: 1024.0,
         radius: 4.0,

@@ -14,7 +14,6 @@
 use crate::level::Level;
 use crate::magnify::fall;
 use crate::math::{floor, floor32, sqrt};
-use crate::texel::{STEP, steps};
 use crate::{Footprint, Wrap};
 
 /// Where along an axis, in σ.
@@ -59,8 +58,12 @@ pub(crate) fn sample(level: &Level, wrap: Wrap, f: &Footprint) -> [f32; 4] {
     if inside {
         // Every index is in range; and if it were not, the texel would be black, and no panic.
         let first = level.index(x, y);
-        places.average(|x, y| {
+        places.average(level.unit(), |x, y| {
             let i = first as isize + y as isize * level.stride as isize + x as isize;
+            if level.is_float() {
+                let rest = level.floats.get(i as usize..).unwrap_or_default();
+                return rest.as_flattened().first_chunk().copied().unwrap_or_default();
+            }
             let rest = level.texels.get(i as usize..).unwrap_or_default();
             let pair: Option<&[i16; 8]> = rest.as_flattened().first_chunk();
             pair.map_or([0.0; 8], |pair| pair.map(f32::from))
@@ -75,8 +78,8 @@ pub(crate) fn sample(level: &Level, wrap: Wrap, f: &Footprint) -> [f32; 4] {
 #[inline(never)]
 fn across_the_edge(level: &Level, wrap: Wrap, places: &Places) -> [f32; 4] {
     let [x0, y0] = places.base;
-    places.average(|x, y| {
-        let [a, b] = [0, 1].map(|i| steps(level.stored(x0 + x + i, y0 + y, wrap)));
+    places.average(level.unit(), |x, y| {
+        let [a, b] = [0, 1].map(|i| level.numbers(x0 + x + i, y0 + y, wrap));
         [a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]
     })
 }
@@ -130,12 +133,12 @@ impl Places {
     }
 
     /// The weighted mean of the bilinear surface at the places, about a texel, so that a constant
-    /// stays what it is. `pair` gives the texel in a column and row, and the next, in steps.
+    /// stays what it is. `pair` gives the texel in a column and row, and the next, in `unit`s.
     ///
     /// Four places share a column: there two columns of texels are averaged first, each by itself,
     /// and then the two.
     #[inline(always)]
-    fn average(&self, pair: impl Fn(i32, i32) -> [f32; 8]) -> [f32; 4] {
+    fn average(&self, unit: f32, pair: impl Fn(i32, i32) -> [f32; 8]) -> [f32; 4] {
         let [r, g, b, a, ..] = pair(0, 0);
         let centres = [r, g, b, a, r, g, b, a];
         let mut sum = [0.0; 4];
@@ -154,7 +157,7 @@ impl Places {
                 sum[c] += (columns[c] + (columns[c + 4] - columns[c]) * fx) * along;
             }
         }
-        core::array::from_fn(|c| (centres[c] + sum[c]) * STEP)
+        core::array::from_fn(|c| (centres[c] + sum[c]) * unit)
     }
 }
 

@@ -107,6 +107,51 @@ impl Cell for Texel {
     }
 }
 
+impl Cell for [f32; 4] {
+    type Number = f32;
+    const ROUNDS: bool = false;
+
+    #[inline(always)]
+    fn flat(row: &[Self]) -> &[f32] {
+        row.as_flattened()
+    }
+
+    #[inline(always)]
+    fn mean([a, b, c, d]: [Self; 4]) -> Self {
+        // About one of them: equal ones are their mean.
+        core::array::from_fn(|i| a[i] + ((b[i] - a[i]) + (c[i] - a[i]) + (d[i] - a[i])) * 0.25)
+    }
+
+    #[inline(always)]
+    fn numbers(self) -> [f32; 4] {
+        self
+    }
+
+    #[inline(always)]
+    fn of_numbers(numbers: [f32; 4]) -> Self {
+        numbers
+    }
+
+    #[inline(always)]
+    fn of_color(color: [f32; 4]) -> Self {
+        color
+    }
+
+    #[inline(always)]
+    fn of_products(products: [f32; 4]) -> Self {
+        products.map(|v| v / (255.0 * 255.0))
+    }
+
+    #[inline(always)]
+    fn of_steps(steps: Texel) -> Self {
+        color(steps)
+    }
+
+    fn memory(level: &mut Level) -> &mut Vec<Self> {
+        &mut level.floats
+    }
+}
+
 /// 1.0, in steps.
 pub(crate) const ONE: f32 = 16_320.0;
 

@@ -7,7 +7,7 @@ use crate::level::{LARGEST, Level};
 use crate::point::{self, Bilinear, Nearest};
 use crate::pyramid;
 use crate::pyramid::plan::{self, Plan, Span};
-use crate::texel::{self, Texel};
+use crate::texel::{self, Cell, Texel};
 use crate::wrap::Nearer;
 use crate::{
     Footprint, LevelMode, PixelFilter, Sampler, Simd, TextureError, TextureOptions, Wrap, extra,
@@ -20,9 +20,9 @@ use scumble_pixel::{Image, ImageView, Premul, WorkingSpace};
 
 /// An image made ready to be filtered: its pyramid, premultiplied, in the working space.
 ///
-/// Texels take 8 bytes each (four numbers of 16 bits, in steps of 1/16,320), rows are padded by
-/// three to eighteen of them, and all levels together take a third more than the base:
-/// [`Texture::memory_for`] says it before anything is allocated.
+/// Texels take 8 bytes each (four numbers of 16 bits, in steps of 1/16,320), or 16 as floats
+/// ([`Storage`](crate::Storage)); rows are padded by three to eighteen of them, and all levels together
+/// take a third more than the base: [`Texture::memory_for`] says it before anything is allocated.
 #[derive(Debug, Clone)]
 pub struct Texture {
     /// Those that are kept.
@@ -34,6 +34,8 @@ pub struct Texture {
     pub(crate) wrap: Wrap,
     space: WorkingSpace,
     average: [f32; 4],
+    /// Whether all colours of the image are in 0…alpha, and so are samples.
+    bounded: bool,
     pub(crate) nearer: [Nearer; 2],
     pub(crate) simd: Simd,
 }
@@ -88,8 +90,12 @@ impl Texture {
         Self::check(size, options)?;
         let pixels = size[0].saturating_mul(size[1]);
         let decoder = Decoder::new(texels.format, options.space, pixels);
-        let levels = pyramid::image::<Texel, _, _>(texels.view, &decoder, options, old)?;
-        Self::over(levels, size, options)
+        let levels = if options.storage.is_float(texels.format.is_of_bytes()) {
+            pyramid::image::<[f32; 4], _, _>(texels.view, &decoder, options, old)?
+        } else {
+            pyramid::image::<Texel, _, _>(texels.view, &decoder, options, old)?
+        };
+        Self::over(levels, size, options, texels.format.is_bounded())
     }
 
     /// A texture whose every level is one colour, red, yellow, green, cyan, blue, magenta, white and
@@ -105,13 +111,12 @@ impl Texture {
     ) -> Result<Self, TextureError> {
         let size = [width, height];
         Self::check(size, options)?;
-        let mut levels = Plan::new(size, options).empty::<Texel>(options, Vec::new())?;
-        let first = plan::kept_levels(size, options.levels).start;
-        for (l, level) in levels.iter_mut().enumerate() {
-            let [r, g, b] = LEVEL_COLORS[(first + l) % LEVEL_COLORS.len()];
-            level.texels.fill(texel::of_color([r, g, b, 1.0]));
-        }
-        Self::over(levels, size, options)
+        let levels = if options.storage.is_float(true) {
+            colored::<[f32; 4]>(size, options)?
+        } else {
+            colored::<Texel>(size, options)?
+        };
+        Self::over(levels, size, options, true)
     }
 
     /// Whether a texture of this size can be made.
@@ -129,11 +134,12 @@ impl Texture {
         mut levels: Vec<Level>,
         size: [usize; 2],
         options: &TextureOptions,
+        bounded: bool,
     ) -> Result<Self, TextureError> {
         let TextureOptions { space, wrap, .. } = *options;
         let average = match &levels[..] {
-            [.., Level { width: 1, height: 1, texels, .. }] => texel::color(texels[0]),
-            [base, ..] => mean(base),
+            [.., last @ Level { width: 1, height: 1, .. }] => last.mean(),
+            [base, ..] => base.mean(),
             [] => return Err(TextureError::Empty),
         };
         if wrap == Wrap::Repeat {
@@ -142,7 +148,8 @@ impl Texture {
         let [width, height] = [levels[0].width, levels[0].height];
         let nearer = [Nearer::new(wrap, width), Nearer::new(wrap, height)];
         let scale = [width as f64 / size[0] as f64, height as f64 / size[1] as f64];
-        Ok(Self { levels, size, scale, wrap, space, average, nearer, simd: Simd::best() })
+        let simd = Simd::best();
+        Ok(Self { levels, size, scale, wrap, space, average, bounded, nearer, simd })
     }
 
     /// The same texture, sampled with other instructions and the same results.
@@ -185,6 +192,10 @@ impl Texture {
     pub fn level(&self, index: usize) -> Option<Image<[f32; 4]>> {
         let level = self.levels.get(index)?;
         let [columns, rows] = level.part.map(Span::len);
+        if level.is_float() {
+            let stored = ImageView::new(columns, rows, level.stride, &level.floats).ok()?;
+            return Some(stored.to_image());
+        }
         let stored = ImageView::new(columns, rows, level.stride, &level.texels).ok()?;
         Some(stored.to_image().map(|t| texel::color(*t)))
     }
@@ -202,11 +213,11 @@ impl Texture {
     /// Bytes of texels that this texture holds.
     #[must_use]
     pub fn memory(&self) -> usize {
-        self.levels.iter().map(|l| size_of_val(&l.texels[..])).sum()
+        self.levels.iter().map(|l| size_of_val(&l.texels[..]) + size_of_val(&l.floats[..])).sum()
     }
 
     /// Bytes of texels that a texture of this size will hold; `None` if that overflows or a
-    /// side is above 2²⁹.
+    /// side is above 2²⁹. With [`Storage::Auto`](crate::Storage::Auto) those of an image of bytes.
     #[must_use]
     pub fn memory_for(width: usize, height: usize, options: &TextureOptions) -> Option<usize> {
         if width.max(height) > LARGEST {
@@ -217,17 +228,20 @@ impl Texture {
             return Some(0);
         }
         let levels = plan::kept_levels([width, height], options.levels);
+        let float = options.storage.is_float(true);
+        let texel = if float { size_of::<[f32; 4]>() } else { size_of::<Texel>() };
         for l in levels.start..levels.end {
             let size = plan::size_of_level([width, height], l);
             let part = plan::kept_part([width, height], size, options);
             let texels = plan::texels_kept(part)?;
-            bytes = bytes.checked_add(texels.checked_mul(size_of::<Texel>())?)?;
+            bytes = bytes.checked_add(texels.checked_mul(texel)?)?;
         }
         isize::try_from(bytes).ok().map(isize::unsigned_abs)
     }
 
-    /// The colour of a footprint: premultiplied, in the working space, each channel in 0…alpha and
-    /// alpha in 0…1.
+    /// The colour of a footprint: premultiplied, in the working space, alpha in 0…1 and each channel in
+    /// 0…alpha, if it was in the image: of one in floats that are stored as such
+    /// ([`Storage::Float`](crate::Storage::Float)) colours are not cut.
     ///
     /// Finite for every footprint. A centre that is not finite gives the mean of the texture; so
     /// does a Jacobian that is not, or that has a component beyond 2³⁰, where the filter needs it.
@@ -304,13 +318,14 @@ impl Texture {
             _ => (),
         }
         let limits = Limits::new(s);
-        if s.level == LevelMode::Auto && out.len() >= batch::WORTH {
+        let float = self.levels[0].is_float();
+        if s.level == LevelMode::Auto && out.len() >= batch::WORTH && !float {
             return batch::fill(self, engine, at, &limits, out);
         }
         for (i, out) in out.iter_mut().enumerate() {
             let f = self.nearer(&at(i));
             *out = if f.is_finite() && f.is_bounded() {
-                into_range(ewa::sample(self, engine, &f, s.level, &limits))
+                self.within_range(ewa::sample(self, engine, &f, s.level, &limits))
             } else {
                 self.average()
             };
@@ -368,7 +383,17 @@ impl Texture {
 
     /// What stands for a footprint that reaches infinitely far.
     pub(crate) fn average(&self) -> Premul {
-        into_range(self.average)
+        self.within_range(self.average)
+    }
+
+    /// A sample within what the image's colours are, without what a sharp pyramid overshoots.
+    #[inline(always)]
+    pub(crate) fn within_range(&self, color: [f32; 4]) -> Premul {
+        if self.bounded {
+            return into_range(color);
+        }
+        let [r, g, b, a] = color;
+        Premul([r, g, b, a.clamp(0.0, 1.0)])
     }
 }
 
@@ -393,17 +418,18 @@ const LEVEL_COLORS: [[f32; 3]; 8] = [
     [0.0, 0.0, 0.0],
 ];
 
-/// The mean of the texels that are kept.
-fn mean(level: &Level) -> [f32; 4] {
-    let mut sum = [0i64; 4];
-    let [columns, rows] = level.part;
-    for t in (rows.start..rows.end).flat_map(|y| level.row(y)) {
-        for (sum, t) in sum.iter_mut().zip(t) {
-            *sum += i64::from(*t);
-        }
+/// The levels of [`Texture::colored_levels`].
+fn colored<T: Cell>(
+    size: [usize; 2],
+    options: &TextureOptions,
+) -> Result<Vec<Level>, TextureError> {
+    let mut levels = Plan::new(size, options).empty::<T>(options, Vec::new())?;
+    let first = plan::kept_levels(size, options.levels).start;
+    for (l, level) in levels.iter_mut().enumerate() {
+        let [r, g, b] = LEVEL_COLORS[(first + l) % LEVEL_COLORS.len()];
+        T::memory(level).fill(T::of_color([r, g, b, 1.0]));
     }
-    let n = columns.len() as f64 * rows.len() as f64;
-    sum.map(|sum| (sum as f64 / n) as f32 * texel::STEP)
+    Ok(levels)
 }
 
 /// Takes off what a sharp pyramid overshoots: alpha to 0…1, colour to 0…alpha.

@@ -13,7 +13,8 @@ use proptest::prelude::*;
 use scumble_geometry::Matrix2;
 use scumble_pixel::{Image, ImageView, WorkingSpace, srgb};
 use scumble_texture::{
-    Alpha, Channels, Footprint, Levels, Sampler, Texels, Texture, TextureError, TextureOptions,
+    Alpha, Channels, Footprint, Levels, Sampler, Storage, Texels, Texture, TextureError,
+    TextureOptions,
 };
 
 const SPACES: [WorkingSpace; 2] = [WorkingSpace::Srgb, WorkingSpace::Linear];
@@ -95,8 +96,21 @@ proptest! {
     fn any_float_is_taken(pixel: [f32; 4], wild in prop::array::uniform4(prop::num::f32::ANY)) {
         for pixel in [pixel, wild] {
             for space in SPACES {
-                let [r, g, b, a] = one(space, pixel, |v| Texels::straight(v));
-                let [x, y, z, w] = one(space, pixel, |v| Texels::premultiplied(v));
+                let finite = [
+                    one(space, pixel, |v| Texels::straight(v)),
+                    one(space, pixel, |v| Texels::premultiplied(v)),
+                ];
+                for texel in finite {
+                    prop_assert!(texel.iter().all(|v| v.is_finite()), "{:?}", texel);
+                    prop_assert!((0.0..=1.0).contains(&texel[3]));
+                }
+                let memory = [pixel];
+                let view = ImageView::new(1, 1, 1, &memory).unwrap();
+                let compact =
+                    TextureOptions { storage: Storage::Compact, ..options(space) };
+                let cut = |t: Result<Texture, TextureError>| t.unwrap().level(0).unwrap().row(0)[0];
+                let [r, g, b, a] = cut(Texture::from_texels(&Texels::straight(view), &compact));
+                let [x, y, z, w] = cut(Texture::from_texels(&Texels::premultiplied(view), &compact));
                 prop_assert!([r, g, b].iter().all(|v| (0.0..=a).contains(v)) && a <= 1.0);
                 prop_assert!([x, y, z].iter().all(|v| (0.0..=w + STEP).contains(v)) && w <= 1.0);
             }

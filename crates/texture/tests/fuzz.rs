@@ -11,8 +11,8 @@ use common::{Random, noise};
 use scumble_geometry::{IntRect, Matrix2};
 use scumble_pixel::{Premul, WorkingSpace};
 use scumble_texture::{
-    Decimation, Footprint, Kernel, LevelMode, Levels, Magnify, PixelFilter, Sampler, Texture,
-    TextureOptions, Wrap, compare,
+    Decimation, Footprint, Kernel, LevelMode, Levels, Magnify, PixelFilter, Sampler, Storage,
+    Texture, TextureOptions, Wrap, compare,
 };
 
 /// The most texels that a sample may read: two levels of the largest ellipse that the sampler allows,
@@ -48,6 +48,7 @@ impl Fuzz {
             wrap: self.pick(&[Wrap::Clamp, Wrap::Repeat, Wrap::Mirror, border]),
             decimation: self.pick(&[Decimation::Kaiser, Decimation::Box]),
             levels: self.pick(&[Levels::All, Levels::All, Levels::BaseOnly, range]),
+            storage: self.pick(&[Storage::Auto, Storage::Auto, Storage::Float]),
             window: self.pick(&[None, None, Some(window)]),
         }
     }

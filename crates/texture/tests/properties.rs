@@ -9,7 +9,7 @@ use scumble_geometry::{DVec2, Homography, Matrix2};
 use scumble_pixel::{Premul, WorkingSpace};
 use scumble_texture::{
     Decimation, Footprint, Kernel, LevelMode, Levels, Magnify, PixelFilter, Sampler, Separable,
-    Simd, Texture, TextureOptions, Wrap,
+    Simd, Storage, Texture, TextureOptions, Wrap,
 };
 
 fn wraps() -> impl Strategy<Value = Wrap> {
@@ -29,8 +29,15 @@ fn options() -> impl Strategy<Value = TextureOptions> {
         1 => Just(Levels::BaseOnly),
         1 => (0usize..7, 0usize..7).prop_map(|(first, last)| Levels::Range { first, last }),
     ];
-    (space, wraps(), decimation, levels).prop_map(|(space, wrap, decimation, levels)| {
-        TextureOptions { space, wrap, decimation, levels, window: None }
+    let storage = prop::sample::select(vec![Storage::Compact, Storage::Float]);
+    let all = (space, wraps(), decimation, levels, storage);
+    all.prop_map(|(space, wrap, decimation, levels, storage)| TextureOptions {
+        space,
+        wrap,
+        decimation,
+        levels,
+        window: None,
+        storage,
     })
 }
 

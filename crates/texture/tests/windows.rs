@@ -9,7 +9,7 @@ use scumble_geometry::{IntRect, Matrix2};
 use scumble_pixel::{Image, Premul, WorkingSpace};
 use scumble_texture::{
     Decimation, Footprint, Kernel, LevelMode, Levels, Magnify, PixelFilter, Sampler, Separable,
-    Simd, StraightAlpha, TexelFormat, Texels, Texture, TextureBuilder, TextureError,
+    Simd, Storage, StraightAlpha, TexelFormat, Texels, Texture, TextureBuilder, TextureError,
     TextureOptions, Wrap,
 };
 
@@ -26,8 +26,10 @@ fn options() -> impl Strategy<Value = TextureOptions> {
             .prop_map(|(first, more)| Levels::Range { first, last: first + more }),
     ];
     let window = prop::option::of((-9i32..90, -9i32..90, 0i32..70, 0i32..70));
-    (space, prop::sample::select(WRAPS.to_vec()), decimation, levels, window).prop_map(
-        |(space, wrap, decimation, levels, window)| TextureOptions {
+    let storage = prop::sample::select(vec![Storage::Auto, Storage::Float]);
+    (space, prop::sample::select(WRAPS.to_vec()), decimation, levels, window, storage).prop_map(
+        |(space, wrap, decimation, levels, window, storage)| TextureOptions {
+            storage,
             space,
             wrap,
             decimation,

@@ -33,7 +33,7 @@ const fn library(
     Room { package, ours: Ours::Only(ours), outside: Outside::Only(outside), published: true }
 }
 
-const ROOMS: [Room; 12] = [
+const ROOMS: [Room; 14] = [
     library("scumble-geometry", &[], &["glam"]),
     library("scumble-pixel", &[], &[]),
     library("scumble-coverage", &["scumble-geometry"], &["fearless_simd", "glam"]),
@@ -49,6 +49,8 @@ const ROOMS: [Room; 12] = [
         &["scumble-scene", "scumble-geometry", "scumble-pixel"],
         &["glam", "image", "roxmltree", "svgtypes", "usvg"],
     ),
+    library("scumble-signal", &["scumble-pixel"], &["rustfft"]),
+    library("scumble-sheet", &["scumble-geometry", "scumble-pixel", "scumble-scene"], &[]),
     library(
         "scumble",
         &[

@@ -1,6 +1,7 @@
 //! Options that are one word out of a few.
 
 use clap::ValueEnum;
+use scumble::pixel::WorkingSpace;
 
 /// How to read the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -84,6 +85,16 @@ pub(crate) enum Interpolate {
     Perspective,
     /// As they lie on the screen: wrong, and instructive
     Affine,
+}
+
+impl Space {
+    /// The library's name for it.
+    pub(crate) fn working(self) -> WorkingSpace {
+        match self {
+            Self::Srgb => WorkingSpace::Srgb,
+            Self::Linear => WorkingSpace::Linear,
+        }
+    }
 }
 
 /// The word that chooses `value` on the command line.

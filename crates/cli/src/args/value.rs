@@ -90,6 +90,27 @@ pub(super) fn samples(text: &str) -> Result<u32, String> {
     }
 }
 
+/// A difference that counts as none, of 255.
+pub(super) fn tolerance(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if (0.0..f64::INFINITY).contains(&value) { Ok(value) } else { Err("not 0 or more".to_owned()) }
+}
+
+/// A threshold of alpha.
+pub(super) fn threshold(text: &str) -> Result<f32, String> {
+    let value: f32 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if value > 0.0 && value <= 1.0 { Ok(value) } else { Err("not above 0 and up to 1".to_owned()) }
+}
+
+/// A number of levels.
+pub(super) fn levels(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(0) => Err("a picture has at least one level".to_owned()),
+        Ok(n) => Ok(n),
+        Err(e) => Err(whole_number(&e)),
+    }
+}
+
 /// A number of threads, 0 for all.
 pub(super) fn threads(text: &str) -> Result<usize, String> {
     let value: usize = text.parse().map_err(|e| whole_number(&e))?;

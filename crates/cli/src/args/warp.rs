@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 /// What to warp, and how.
 #[derive(Debug, Args)]
-#[command(long_about = ABOUT, after_long_help = EXAMPLES, after_help = super::RENDER_MORE)]
+#[command(long_about = ABOUT, after_long_help = EXAMPLES, after_help = super::MORE)]
 #[command(group = ArgGroup::new("way").required(true))]
 pub(crate) struct Warp {
     /// The picture to warp: PNG, JPEG, WebP, TIFF or OpenEXR; `-` is standard input

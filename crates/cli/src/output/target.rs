@@ -169,9 +169,10 @@ fn is_scene(path: &Path, source: &Source) -> bool {
     }
 }
 
-/// Whether nothing is lost by replacing the file: it is a picture, or empty.
+/// Whether nothing is lost by replacing the file: it is a picture, or a texture's levels, or empty.
 fn is_picture(path: &Path) -> io::Result<bool> {
     let mut start = Vec::new();
     File::open(path)?.take(LONGEST_SIGNATURE).read_to_end(&mut start)?;
-    Ok(start.is_empty() || Format::of_content(&start).is_some())
+    let texture = start.starts_with(b"DDS ") || start.starts_with(b"\xabKTX 20\xbb");
+    Ok(start.is_empty() || texture || Format::of_content(&start).is_some())
 }

@@ -24,6 +24,7 @@ impl Encoder {
     ///
     /// A file with a profile has the numbers that the profile means. Without one, whole numbers are
     /// sRGB's and floats are light.
+    #[allow(dead_code)]
     pub(crate) fn new(space: WorkingSpace, tone: &Tone, form: &Form) -> Self {
         let written = match form.icc {
             Some(_) => tone.clone(),
@@ -56,12 +57,21 @@ impl Encoder {
         match out {
             Pixels::U8(out) if self.is_plain() => {
                 for &color in colors {
-                    self.put(self.space.export(color), out);
+                    put(self.channels, self.space.export(color), out);
                 }
             }
             Pixels::U8(out) => self.append(colors, out, unorm8),
             Pixels::U16(out) => self.append(colors, out, unorm16),
             Pixels::F32(out) => self.append(colors, out, |v| v),
+        }
+    }
+
+    /// Appends numbers that are no colours, straight and on the scale where the largest is 1.
+    pub(crate) fn data(channels: Channels, texels: &[[f32; 4]], out: &mut Pixels) {
+        match out {
+            Pixels::U8(out) => texels.iter().for_each(|t| put(channels, t.map(unorm8), out)),
+            Pixels::U16(out) => texels.iter().for_each(|t| put(channels, t.map(unorm16), out)),
+            Pixels::F32(out) => texels.iter().for_each(|t| put(channels, *t, out)),
         }
     }
 
@@ -73,16 +83,7 @@ impl Encoder {
 
     fn append<T: Copy>(&self, colors: &[Premul], out: &mut Vec<T>, to: impl Fn(f32) -> T) {
         for &color in colors {
-            self.put(self.numbers(color).map(&to), out);
-        }
-    }
-
-    fn put<T: Copy>(&self, [r, g, b, a]: [T; 4], out: &mut Vec<T>) {
-        match self.channels {
-            Channels::Gray => out.push(r),
-            Channels::GrayAlpha => out.extend([r, a]),
-            Channels::Rgb => out.extend([r, g, b]),
-            Channels::Rgba => out.extend([r, g, b, a]),
+            put(self.channels, self.numbers(color).map(&to), out);
         }
     }
 
@@ -98,6 +99,16 @@ impl Encoder {
         let factor = if self.premultiplied { alpha } else { 1.0 };
         let [r, g, b] = color.map(|v| v * factor);
         [r, g, b, alpha]
+    }
+}
+
+/// Appends the numbers of a pixel that there are channels for.
+fn put<T: Copy>(channels: Channels, [r, g, b, a]: [T; 4], out: &mut Vec<T>) {
+    match channels {
+        Channels::Gray => out.push(r),
+        Channels::GrayAlpha => out.extend([r, a]),
+        Channels::Rgb => out.extend([r, g, b]),
+        Channels::Rgba => out.extend([r, g, b, a]),
     }
 }
 

@@ -278,7 +278,16 @@ fn bad(error: ImageError) -> Refusal {
             UnsupportedErrorKind::GenericFeature(what) => Refusal::Bad(format!("not read: {what}")),
             _ => Refusal::Bad(e.to_string()),
         },
-        other => Refusal::Bad(other.to_string()),
+        other => Refusal::Bad(without_preamble(&other.to_string())),
+    }
+}
+
+/// What a decoder says, without saying again that it is a decoder.
+fn without_preamble(text: &str) -> String {
+    let text = text.trim();
+    match text.split_once(": ") {
+        Some((start, rest)) if start.starts_with("Format error decoding") => rest.to_owned(),
+        _ => text.to_owned(),
     }
 }
 

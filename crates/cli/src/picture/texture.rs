@@ -3,6 +3,7 @@
 use super::{Channels, Picture, Pixels, Tone};
 use scumble::pixel::{ImageView, WorkingSpace};
 use scumble::texture::{Channels as TexelChannels, Texels, Texture, TextureError, TextureOptions};
+use std::ops::Range;
 
 impl Picture {
     /// The texture of the picture.
@@ -45,6 +46,23 @@ impl Picture {
             }
         }
         values
+    }
+
+    /// Some of the channels as a picture of their own, whose numbers are taken for sRGB's.
+    pub(crate) fn part(&self, channels: Range<usize>) -> Self {
+        let n = self.channels.count();
+        fn taken<T: Copy>(v: &[T], n: usize, channels: Range<usize>) -> Vec<T> {
+            v.chunks_exact(n).flat_map(|pixel| &pixel[channels.clone()]).copied().collect()
+        }
+        let chosen = Channels::of_count(channels.len().min(n)).unwrap_or(self.channels);
+        let pixels = match &self.pixels {
+            Pixels::U8(v) => Pixels::U8(taken(v, n, channels)),
+            Pixels::U16(v) => Pixels::U16(taken(v, n, channels)),
+            Pixels::F32(v) => Pixels::F32(taken(v, n, channels)),
+        };
+        let (width, height, origin) = (self.width, self.height, self.origin.clone());
+        let (tone, premultiplied, icc) = (Tone::Srgb, false, None);
+        Self { width, height, channels: chosen, pixels, premultiplied, tone, icc, origin }
     }
 
     /// The texture of straight encoded codes, the common case.

@@ -172,6 +172,18 @@ pub(crate) fn png_file(side: u32) -> Vec<u8> {
     data
 }
 
+/// A PNG of pixels with alpha, `width` to a row.
+pub(crate) fn rgba_png(width: usize, pixels: &[[u8; 4]]) -> Vec<u8> {
+    let mut data = Vec::new();
+    let height = pixels.len() / width;
+    let mut encoder = png::Encoder::new(&mut data, width as u32, height as u32);
+    encoder.set_color(png::ColorType::Rgba);
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(pixels.as_flattened()).expect("pixels");
+    writer.finish().expect("an end");
+    data
+}
+
 /// A scene of one image, the file called `href`.
 pub(crate) fn scene_of(href: &str) -> String {
     format!(

@@ -1,9 +1,14 @@
 //! The command as a user meets it: real runs, real files, exit codes and messages.
 
 mod common;
+mod compare;
+mod diff;
 mod failures;
+mod info;
 mod limits;
+mod mip;
 mod output;
 mod pictures;
 mod report;
+mod signal;
 mod warp;

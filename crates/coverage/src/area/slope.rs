@@ -120,15 +120,23 @@ impl Reach {
     ///
     /// A function of the edge, the row, the pixel and the height, which changes by whole units once
     /// the edge has left the pixel: so it does not matter at which heights a sum is cut.
-    #[cfg(test)]
+    #[inline(always)]
     pub(crate) fn part(&self, c: f64) -> f64 {
         let end = c + 1.0;
-        let before = c.max(self.from).min(self.to);
-        let after = end.max(self.from).min(self.to);
+        let before = smaller(larger(c, self.from), self.to);
+        let after = smaller(larger(end, self.from), self.to);
         let within = self.half_rise * (after - before);
         let sum = (before - self.from) + (after - self.from);
-        let beyond = (end - self.to).clamp(0.0, 1.0);
+        let beyond = smaller(larger(end - self.to, 0.0), 1.0);
         (within * sum + self.height * beyond + ROUNDER) - ROUNDER
+    }
+
+    /// What lies right of the edge in pixel `x`.
+    #[inline(always)]
+    pub(crate) fn right(&self, x: f64) -> f64 {
+        // What is left behind in the mirror lies left of the edge: the rest is right of it.
+        let (c, all) = mirrored(self.sign, x, self.height);
+        all + self.sign * self.part(c)
     }
 }
 

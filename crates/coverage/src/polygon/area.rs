@@ -9,6 +9,7 @@
 //! far as they reach. So each knot is the same in every clip, and what follows from the sums is to
 //! the bit what would come of untying it.
 
+use super::calm::is_calm;
 use super::gather::{Gathered, ROWS, Source};
 use super::strips::{AreaEdge, Place, Strips};
 use super::sums::{RowSums, Stretches};
@@ -154,8 +155,12 @@ impl Knots {
                     let source = &gathered.edges[sums.met[i as usize].edge as usize];
                     self.edges.push(source.area_edge(y));
                 }
-                let areas = self.strips.areas(simd, Place { polygon, x, y, left }, &self.edges);
-                sums.set_areas(chunk, areas);
+                if is_calm(y, left, &self.edges) {
+                    sums.calm(chunk);
+                } else {
+                    let place = Place { polygon, x, y, left };
+                    sums.untie(self.strips.areas(simd, place, &self.edges));
+                }
             }
             self.pass(y, beyond * CHUNK, gathered, sums, left);
             next = sums.next_touched(chunk + 1);

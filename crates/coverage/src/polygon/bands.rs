@@ -173,30 +173,30 @@ impl Bands {
         mut meet: impl FnMut(&PolygonEdge),
     ) {
         let mut look = |e: &PolygonEdge| {
+            if e.y0 >= bottom || e.y1 <= top {
+                return;
+            }
             if e.right() < left {
                 side.add_edge(e, top, bottom);
             } else if e.left() <= right {
                 meet(e);
             }
         };
-        let Some(columns) = &self.columns else {
-            return self.each_in(top, bottom, |e| {
-                look(e);
-                true
-            });
-        };
         let b = ((top >> (8 + self.shift)) - self.first) as usize;
+        let Some(columns) = &self.columns else {
+            for e in &self.edges[self.starts[b] as usize..self.starts[b + 1] as usize] {
+                look(e);
+            }
+            return;
+        };
         let (from, end) = (columns.starts[b] as usize, columns.starts[b + 1] as usize);
         let passed = |mark: &Mark| self.edges[mark.edge as usize - 1].right() < left;
         let from = from + columns.marks[from + 1..end].partition_point(passed);
         let marks = &columns.marks[from..=end];
-        let mut meets = |e: &PolygonEdge| {
-            if e.y0 < bottom && e.y1 > top {
+        for pair in marks.windows(2).take_while(|pair| pair[0].left <= right) {
+            for e in &self.edges[pair[0].edge as usize..pair[1].edge as usize] {
                 look(e);
             }
-        };
-        for pair in marks.windows(2).take_while(|pair| pair[0].left <= right) {
-            self.edges[pair[0].edge as usize..pair[1].edge as usize].iter().for_each(&mut meets);
         }
         for &(height, change) in &columns.steps[marks[0].step as usize..marks[1].step as usize] {
             side.add(height.clamp(top, bottom) - top, change);

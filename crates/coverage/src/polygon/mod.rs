@@ -2,6 +2,7 @@
 
 mod area;
 mod bands;
+mod calm;
 mod crowd;
 mod gather;
 mod rows;

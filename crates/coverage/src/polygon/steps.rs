@@ -47,6 +47,11 @@ impl Steps {
         self.marked
     }
 
+    /// By how much it changes at a height inside the row.
+    pub(super) fn change(&self, height: i32) -> i32 {
+        self.changes[height as usize & 255]
+    }
+
     /// The heights at which it changes, and by how much, from the top.
     pub(super) fn iter(&self) -> impl Iterator<Item = (i32, i32)> {
         self.marked.iter().enumerate().flat_map(move |(word, &bits)| {

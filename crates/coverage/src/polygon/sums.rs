@@ -13,7 +13,7 @@
 use super::Polygon;
 use super::gather::Source;
 use super::steps::Steps;
-use crate::area::{CHUNK, Reach, eight_right, splat};
+use crate::area::{CHUNK, Reach, eight_areas, eight_right, splat};
 use crate::fixed::{floor, low_bits};
 use alloc::vec::Vec;
 use fearless_simd::{Simd, f64x8, prelude::*};
@@ -44,10 +44,10 @@ pub(super) struct RowSums {
     /// The leftmost pixel, a multiple of [`CHUNK`], and how many chunks there are.
     x0: i32,
     chunks: usize,
-    /// Per chunk: the sums within it, or the areas in a knot.
-    sums: Vec<[f64; 8]>,
-    /// Per chunk: what it and all chunks right of it get.
-    onward: Vec<f64>,
+    /// Per pixel: by how much the sum exceeds that of the pixel before.
+    steps: Vec<f64>,
+    /// The areas of the chunks that are knots, from left to right.
+    untied: Vec<[f64; 8]>,
     /// Per pixel: the heights of the edges that begin there, those that run up shifted by [`UP`].
     heights: Vec<u64>,
     /// One bit per pixel: whether an edge touches it, and whether one touches the pixel before
@@ -67,9 +67,9 @@ impl RowSums {
         let chunks = ((x1 - x0 + CHUNK - 1) / CHUNK) as usize;
         (self.x0, self.chunks) = (x0, chunks);
         // Only growth needs filling.
-        let room = self.sums.len().max(chunks.next_multiple_of(8));
-        self.sums.resize(room, [0.0; 8]);
-        self.onward.resize(room + 1, 0.0);
+        let room = (self.out.len() / 8).max(chunks.next_multiple_of(8));
+        // An edge is added to as many pixels beyond its end as fill eight.
+        self.steps.resize(room * 8 + 16, 0.0);
         self.heights.resize(room * 8, 0);
         self.out.resize(room * 8, 0.0);
         self.touched.resize(room / 8, 0);
@@ -112,19 +112,34 @@ impl RowSums {
             self.heights[column] += height + cut;
             self.mark(column, end);
             let weight = f64::from(edge.winding);
-            self.onward[end / 8 + 1] += weight * reach.height;
-            for chunk in column / 8..=end / 8 {
-                self.add_chunk(simd, chunk, &reach, weight);
+            if column == end {
+                let area = weight * reach.right(f64::from(from_x));
+                self.steps[column] += area;
+                self.steps[column + 1] += weight * reach.height - area;
+            } else {
+                self.add_long(simd, (column, end), &reach, weight);
             }
         }
     }
 
+    /// Adds an edge that touches several pixels.
     #[inline(always)]
-    fn add_chunk<S: Simd>(&mut self, simd: S, chunk: usize, reach: &Reach, weight: f64) {
-        let sums = &mut self.sums[chunk];
-        let at = self.x0 + chunk as i32 * CHUNK;
-        let sum = f64x8::from_slice(simd, &sums[..]) + eight_right(simd, at, reach, weight);
-        sum.store_slice(sums);
+    fn add_long<S: Simd>(
+        &mut self,
+        simd: S,
+        (column, end): (usize, usize),
+        reach: &Reach,
+        weight: f64,
+    ) {
+        // The area of the pixel before, and of eight more. Beyond the edge all are the same.
+        let mut areas = [0.0; 9];
+        for at in (column..end + 2).step_by(8) {
+            areas[0] = areas[8];
+            eight_right(simd, self.pixel(at), reach, weight).store_slice(&mut areas[1..]);
+            let rises = f64x8::from_slice(simd, &areas[1..]) - f64x8::from_slice(simd, &areas[..8]);
+            let steps = &mut self.steps[at..at + 8];
+            (f64x8::from_slice(simd, steps) + rises).store_slice(steps);
+        }
     }
 
     /// Adds a level edge inside the row, of which the winding number changes all along.
@@ -218,9 +233,14 @@ impl RowSums {
         self.x0 + chunk as i32 * CHUNK
     }
 
-    /// Unties a knot.
-    pub(super) fn set_areas(&mut self, chunk: usize, areas: [f64; 8]) {
-        self.sums[chunk] = areas;
+    /// Takes a chunk for a plain one after all.
+    pub(super) fn calm(&mut self, chunk: usize) {
+        self.knots[chunk / 64] &= !(1 << (chunk % 64));
+    }
+
+    /// Unties the next knot.
+    pub(super) fn untie(&mut self, areas: [f64; 8]) {
+        self.untied.push(areas);
     }
 
     /// Sums from left to right, and hands on what is covered. `base` is the mean winding number at
@@ -234,6 +254,7 @@ impl RowSums {
         out: &mut impl Stretches,
     ) {
         let mut base = base;
+        let mut untied = 0;
         // From where on all is `base`, and the touched stretch under way.
         let mut stretch = 0..0usize;
         for word in 0..self.chunks.div_ceil(8) {
@@ -253,11 +274,19 @@ impl RowSums {
                     stretch.start = first;
                 }
                 stretch.end = chunk * 8 + 8 - here.leading_zeros() as usize;
-                self.finish_chunk(simd, polygon.rule, chunk, base);
-                base += core::mem::take(&mut self.onward[chunk + 1]);
+                let means = self.sum_chunk(chunk, &mut base);
+                let knot = self.is_knot(chunk).then(|| self.untied[untied]);
+                untied += usize::from(knot.is_some());
+                let areas = match knot {
+                    Some(areas) => f64x8::from_slice(simd, &areas),
+                    None => areas(simd, polygon.rule, &means),
+                };
+                self.out[chunk * 8..chunk * 8 + 8].copy_from_slice(&eight_areas(simd, areas));
             }
         }
         self.knots[..self.chunks.div_ceil(64)].fill(0);
+        self.untied.clear();
+        self.steps[self.chunks * 8..self.chunks * 8 + 16].fill(0.0);
         self.hand_on(stretch.clone(), out);
         if polygon.is_inside(base as i32) {
             out.full(self.pixel(stretch.end), self.pixel(self.chunks * 8));
@@ -275,30 +304,33 @@ impl RowSums {
         }
     }
 
-    /// The areas of a chunk.
+    /// The sums of a chunk, from that of the pixel before; and the sum of the pixel after it.
     #[inline(always)]
-    fn finish_chunk<S: Simd>(&mut self, simd: S, rule: FillRule, chunk: usize, base: f64) {
-        let sums = f64x8::from_slice(simd, &self.sums[chunk]);
-        let areas = if self.is_knot(chunk) {
-            sums
-        } else {
-            let mean = sums + splat(simd, base);
-            match rule {
-                FillRule::NonZero => mean.abs(),
-                // How far it is from an even number.
-                FillRule::EvenOdd => {
-                    let half = mean * splat(simd, 0.5);
-                    let whole = (half + splat(simd, ROUNDER)) - splat(simd, ROUNDER);
-                    (half - whole).abs() * splat(simd, 2.0)
-                }
-            }
-        };
-        let mut held = [0.0; 8];
-        areas.max(splat(simd, 0.0)).min(splat(simd, 1.0)).store_slice(&mut held);
-        for (area, v) in self.out[chunk * 8..chunk * 8 + 8].iter_mut().zip(held) {
-            *area = v as f32;
+    fn sum_chunk(&mut self, chunk: usize, sum: &mut f64) -> [f64; 8] {
+        let mut sums = [0.0; 8];
+        let steps = &mut self.steps[chunk * 8..chunk * 8 + 9];
+        for (out, step) in sums.iter_mut().zip(&*steps) {
+            *sum += step;
+            *out = *sum;
         }
-        self.sums[chunk] = [0.0; 8];
+        *sum += steps[8];
+        steps.fill(0.0);
+        sums
+    }
+}
+
+/// The areas that follow from mean winding numbers.
+#[inline(always)]
+fn areas<S: Simd>(simd: S, rule: FillRule, means: &[f64; 8]) -> f64x8<S> {
+    let means = f64x8::from_slice(simd, means);
+    match rule {
+        FillRule::NonZero => means.abs(),
+        // How far it is from an even number.
+        FillRule::EvenOdd => {
+            let half = means * splat(simd, 0.5);
+            let whole = (half + splat(simd, ROUNDER)) - splat(simd, ROUNDER);
+            (half - whole).abs() * splat(simd, 2.0)
+        }
     }
 }
 

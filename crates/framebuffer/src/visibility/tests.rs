@@ -1,4 +1,5 @@
 use super::*;
+use crate::encode_row;
 use proptest::prelude::*;
 use scumble_pixel::WorkingSpace;
 use std::{vec, vec::Vec};
@@ -75,9 +76,17 @@ fn samples_of(tile: &Visibility, y: u32, samples: u32) -> Vec<u32> {
 const COLORS: [[f32; 4]; 4] =
     [[0.2, 0.3, 0.7, 1.0], [1.0, 0.0, 0.1, 1.0], [0.9, 0.9, 0.8, 1.0], [0.1, 0.2, 0.3, 0.4]];
 
+struct Colors;
+
+impl PixelColors for Colors {
+    fn at(&self, key: u32, _: f64) -> Premul {
+        COLORS.get(key as usize).map_or(Premul::TRANSPARENT, |&c| Premul(c))
+    }
+}
+
 /// Shading and encoding are the mean over samples of the definition.
 fn check_colours(tile: &Visibility, naive: &Naive) -> Result<(), TestCaseError> {
-    let color = |key: u32| COLORS.get(key as usize).map_or(Premul::TRANSPARENT, |&c| Premul(c));
+    let color = |key: u32| Colors.at(key, 0.0);
     for space in [WorkingSpace::Srgb, WorkingSpace::Linear] {
         let mut palette = Palette::new(space);
         COLORS.iter().for_each(|&c| palette.push(Premul(c)));
@@ -88,6 +97,9 @@ fn check_colours(tile: &Visibility, naive: &Naive) -> Result<(), TestCaseError> 
             let pixels: Vec<Premul> = samples.chunks(naive.samples as usize).map(mean).collect();
             let mut shaded = vec![Premul::TRANSPARENT; naive.width as usize];
             tile.shade_row(y, &mut shaded, |key, _, out| out.fill(color(key)));
+            prop_assert_eq!(&shaded, &pixels);
+            shaded.fill(Premul::TRANSPARENT);
+            tile.shade_pixels(y, &mut shaded, &Colors);
             prop_assert_eq!(&shaded, &pixels);
             let mut codes = vec![[9; 4]; naive.width as usize];
             tile.encode_row(y, &palette, &mut codes);
@@ -192,6 +204,9 @@ fn long_rows_are_encoded_whole() {
     for room in [0, 1, 63, 64, 65, 149, 150, 200] {
         let mut shaded = vec![Premul::TRANSPARENT; room];
         tile.shade_row(0, &mut shaded, |key, _, out| out.fill(Premul(COLORS[key as usize])));
+        let mut by_pixel = vec![Premul::TRANSPARENT; room];
+        tile.shade_pixels(0, &mut by_pixel, &Colors);
+        assert_eq!(by_pixel, shaded);
         let mut expected = vec![[9; 4]; room];
         encode_row(&shaded[..room.min(150)], WorkingSpace::Srgb, &mut expected);
         let mut codes = vec![[9; 4]; room];

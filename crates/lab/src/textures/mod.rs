@@ -31,6 +31,11 @@ pub(crate) fn emblem() -> Canvas {
     checker::draw_emblem()
 }
 
+/// The drawn head.
+pub(crate) fn portrait() -> scumble_pixel::Image<[u8; 4]> {
+    portrait::draw().into_image()
+}
+
 /// The map of the world.
 pub(crate) fn world() -> scumble_pixel::Image<[u8; 4]> {
     world::draw().into_image()

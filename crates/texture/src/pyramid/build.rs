@@ -4,6 +4,8 @@ use crate::decode::Decoder;
 use crate::engine::{Scalar, Vector};
 use crate::format::{Alpha, Channels};
 use crate::level::Level;
+#[cfg(feature = "parallel")]
+use crate::pyramid::bands;
 use crate::pyramid::cascade::{Cascade, Kept};
 use crate::pyramid::plan::{LevelPlan, Plan};
 use crate::pyramid::rung::Course;
@@ -32,7 +34,7 @@ impl<T: Cell> Making<T> {
     ) -> Result<Self, TextureError> {
         let plan = Plan::new(size, options);
         let levels = plan.empty::<T>(options, old)?;
-        let cascade = Cascade::new(&plan, 0, &plan.courses())?;
+        let cascade = Cascade::new(&plan, 0, &plan.courses(0))?;
         Ok(Self { plan, cascade, levels, simd: Simd::best() })
     }
 
@@ -73,6 +75,12 @@ pub(crate) fn image<T: Cell, P: Channels, A: Alpha>(
     old: Vec<Level>,
 ) -> Result<Vec<Level>, TextureError> {
     let mut making = Making::<T>::new([view.width(), view.height()], options, old)?;
+    #[cfg(feature = "parallel")]
+    if options.window.is_none()
+        && bands::fill::<T, P, A>(view, decoder, &making.plan, &mut making.levels)?
+    {
+        return Ok(making.finish());
+    }
     while let Some(y) = making.next() {
         making.push(decoder, view.row(y));
     }
@@ -97,8 +105,8 @@ impl Plan {
         self.levels.iter().filter_map(level).collect()
     }
 
-    /// The course of every level where all rows of the image come in turn.
-    fn courses(&self) -> Vec<Course> {
+    /// The course of every level from `base` on where all its rows come in turn.
+    pub(crate) fn courses(&self, base: usize) -> Vec<Course> {
         let mut begin = 0;
         let course = |(l, level): (usize, &LevelPlan)| {
             let next = self.levels.get(l + 1).map_or(level.made[1], |next| next.made[1]);
@@ -116,7 +124,7 @@ impl Plan {
             }
             Course { rows, outputs, circular: true }
         };
-        self.levels.iter().enumerate().map(course).collect()
+        self.levels.iter().enumerate().skip(base).map(course).collect()
     }
 }
 

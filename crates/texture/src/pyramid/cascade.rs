@@ -70,6 +70,23 @@ impl<T: Cell> Cascade<T> {
         self.settle(lanes, plan, sink, 0);
     }
 
+    /// Takes the next row of a level as its texels.
+    #[cfg(feature = "parallel")]
+    #[inline(always)]
+    pub(crate) fn push_texels(
+        &mut self,
+        lanes: impl Lanes,
+        plan: &Plan,
+        sink: &mut impl Sink<T>,
+        row: &[T],
+    ) {
+        let Some(rung) = self.rungs.first_mut() else { return };
+        for (slot, texel) in rung.slot().iter_mut().zip(row) {
+            *slot = *texel;
+        }
+        self.settle(lanes, plan, sink, 0);
+    }
+
     /// Keeps the row that has been put at a rung, and makes what can be made of it.
     #[inline(always)]
     fn settle(&mut self, lanes: impl Lanes, plan: &Plan, sink: &mut impl Sink<T>, at: usize) {

@@ -1,0 +1,121 @@
+//! `scumble filter`: a picture in, some of its frequencies out.
+
+use crate::args::{self, Convolution, Filter as Options};
+use crate::error::Failure;
+use crate::input::Source;
+use crate::interrupt::Interrupt;
+use crate::output::{Request, Target};
+use crate::plain;
+use scumble::pixel::{Image, Premul};
+use scumble_signal::{
+    Band, Border, Kernel2, Shape, SignalError, Tiling, band_filter, convolve, convolve_separable,
+    map_channels,
+};
+
+/// Memory that a pixel takes for a convolution: as eight bits, as colour twice, four planes, and two
+/// of work.
+const SPACE_BYTES: u64 = 4 + 2 * 16 + 4 * 8 + 2 * 8;
+
+/// What a transform takes beside: a spectrum, its copy, and columns.
+const SPECTRUM_BYTES: u64 = 3 * 16;
+
+/// A filter ready to be applied.
+enum Job {
+    Band(Band, Shape, Tiling),
+    Convolution(Convolution, Border),
+}
+
+/// Does what the arguments say.
+pub(crate) fn run(options: &Options) -> Result<(), Failure> {
+    let interrupt = Interrupt::install()?;
+    let source = Source::new(&options.files.input);
+    let out = Some(options.files.output.as_path());
+    let target = Target::new(&Request { out, force: options.files.force, json: false }, &source)?;
+    let job = Job::new(options)?;
+    let space = options.space.working();
+    let picture = plain::read(&source, &options.memory, job.bytes_per_pixel())?;
+    let colors = picture.map(|&c| space.import8(c));
+    let filtered = job.apply(&colors).map_err(|e| Failure::Usage(e.to_string()))?;
+    let about_zero = job.is_about_zero();
+    let offset = options.offset.unwrap_or(if about_zero { 0.5 } else { 0.0 }) as f32;
+    let shown = filtered.map(|&Premul([r, g, b, a])| {
+        let alpha = if about_zero { 1.0 } else { a };
+        space.export(Premul([r + offset, g + offset, b + offset, alpha]))
+    });
+    plain::write(&shown, &target, &interrupt)
+}
+
+impl Job {
+    fn new(options: &Options) -> Result<Self, Failure> {
+        if let Some(kernel) = &options.kernel {
+            let border = match options.border {
+                args::Border::Mirror => Border::Mirror,
+                args::Border::Repeat => Border::Repeat,
+                args::Border::Clamp => Border::Clamp,
+            };
+            return Ok(Self::Convolution(kernel.clone(), border));
+        }
+        let tiling = match options.border {
+            args::Border::Mirror => Tiling::Mirror,
+            args::Border::Repeat => Tiling::Repeat,
+            args::Border::Clamp => {
+                let why = "--border clamp: a band of frequencies is of a picture that goes on \
+                           for ever, by mirror or repeat";
+                return Err(Failure::Usage(why.to_owned()));
+            }
+        };
+        let band = match (options.low_pass, options.band_pass, options.high_pass) {
+            (Some(cutoff), ..) => Band::LowPass(cutoff),
+            (_, Some([low, high]), _) => Band::BandPass(low, high),
+            (.., high) => Band::HighPass(high.unwrap_or_default()),
+        };
+        let shape = if options.gaussian { Shape::Gaussian } else { Shape::Ideal };
+        Ok(Self::Band(band, shape, tiling))
+    }
+
+    fn bytes_per_pixel(&self) -> u64 {
+        SPACE_BYTES
+            + match self {
+                Self::Convolution(..) => 0,
+                Self::Band(.., Tiling::Repeat) => SPECTRUM_BYTES,
+                // The picture and its three mirror images.
+                Self::Band(.., Tiling::Mirror) => 4 * (SPECTRUM_BYTES + 2 * 8),
+            }
+    }
+
+    /// Whether a constant picture becomes zero.
+    fn is_about_zero(&self) -> bool {
+        match self {
+            Self::Band(Band::LowPass(_), ..) | Self::Convolution(Convolution::Separable(_), _) => {
+                false
+            }
+            Self::Band(..) => true,
+            Self::Convolution(Convolution::Matrix { weights, .. }, _) => cancels(weights),
+        }
+    }
+
+    fn apply(&self, picture: &Image<Premul>) -> Result<Image<Premul>, SignalError> {
+        match self {
+            Self::Band(band, shape, tiling) => {
+                map_channels(picture.view(), |p| band_filter(p.view(), *band, *shape, *tiling))
+            }
+            Self::Convolution(Convolution::Separable(kernel), border) => {
+                map_channels(picture.view(), |p| {
+                    Ok(convolve_separable(p.view(), kernel, kernel, *border))
+                })
+            }
+            Self::Convolution(Convolution::Matrix { columns, weights }, border) => {
+                let rows = weights.len() / columns.max(&1);
+                let make = if cancels(weights) { Kernel2::new } else { Kernel2::normalized };
+                let kernel = make(*columns, rows, weights.clone())?;
+                map_channels(picture.view(), |p| Ok(convolve(p.view(), &kernel, *border)))
+            }
+        }
+    }
+}
+
+/// Whether weights sum to nothing but rounding.
+fn cancels(weights: &[f64]) -> bool {
+    let (sum, size) = weights.iter().fold((0.0, 0.0), |(s, a), w: &f64| (s + w, a + w.abs()));
+    sum.abs() <= 1e-12 * size
+}

@@ -1,0 +1,177 @@
+//! `scumble mip`: the levels of a picture, in files or in one container.
+
+mod container;
+mod dds;
+mod ktx2;
+mod levels;
+mod sheet;
+
+use crate::args::{Mip, choice_name};
+use crate::error::{Failure, say};
+use crate::input::Source;
+use crate::interrupt::Interrupt;
+use crate::output::{Request, Target};
+use crate::picture::{Depth, Form, Format, Limits, Picture, Tone, Writer, read};
+use crate::report::{milliseconds, print};
+use container::Container;
+use levels::{Level, Plan};
+use serde_json::json;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+/// Does what the arguments say.
+pub(crate) fn run(options: &Mip) -> Result<(), Failure> {
+    let interrupt = Interrupt::install()?;
+    let source = Source::new(&options.input);
+    source.check()?;
+    let place = Place::new(options, &source)?;
+    let sheet = options.sheet.as_deref().map(|out| target(out, options, &source)).transpose()?;
+
+    let start = Instant::now();
+    let limits = Limits { pixels: options.limits.max_pixels, memory: options.limits.max_memory };
+    let picture = read(&source, limits)?;
+    let decode = start.elapsed();
+    let plan = Plan::new(options, &picture, &place)?;
+    if !options.quiet {
+        notes(&source, &picture, &place);
+    }
+
+    let start = Instant::now();
+    let levels = levels::build(&picture, &plan, &interrupt)?;
+    let mip = start.elapsed();
+    let start = Instant::now();
+    place.write(
+        &levels,
+        &Written { picture: &picture, plan: &plan, source: &source, interrupt: &interrupt },
+    )?;
+    if let Some(target) = &sheet {
+        sheet::write(&levels, &plan, target, &interrupt)?;
+    }
+    interrupt.release();
+    if !options.json {
+        return Ok(());
+    }
+    let report = json!({
+        "picture": source.name(),
+        "output": options.out.display().to_string(),
+        "width": picture.width,
+        "height": picture.height,
+        "filter": choice_name(options.filter),
+        "wrap": choice_name(options.wrap),
+        "space": plan.space_name(),
+        "channels": plan.channels.name(),
+        "bits": plan.depth.bits(),
+        "float": plan.depth.is_float(),
+        "levels": levels.iter().map(Level::json).collect::<Vec<_>>(),
+        "decode_ms": milliseconds(decode),
+        "mip_ms": milliseconds(mip),
+        "encode_ms": milliseconds(start.elapsed()),
+    });
+    print(&report.to_string())
+}
+
+/// Says what the reader left out, and what the container does.
+fn notes(source: &Source, picture: &Picture, place: &Place) {
+    let name = source.name();
+    for note in &picture.origin.notes {
+        say(&format!("{name}: warning: {note}"));
+    }
+    if matches!(place, Place::Container(..)) && picture.has_other_primaries() {
+        let profile = picture.profile_name().unwrap_or_default();
+        say(&format!(
+            "{name}: warning: its primaries ({profile}) are not sRGB's, which a reader of the \
+             container will take them for"
+        ));
+    }
+}
+
+fn target(out: &Path, options: &Mip, source: &Source) -> Result<Target, Failure> {
+    let request = Request { out: Some(out), force: options.force, json: options.json };
+    Target::new(&request, source)
+}
+
+/// Where the levels go.
+enum Place {
+    /// One file of all.
+    Container(Container, Target),
+    /// One file each.
+    Folder(PathBuf),
+}
+
+impl Place {
+    fn new(options: &Mip, source: &Source) -> Result<Self, Failure> {
+        let out = &options.out;
+        if let Some(container) = Container::of_name(out) {
+            return Ok(Self::Container(container, target(out, options, source)?));
+        }
+        let folder = out.is_dir();
+        let refused =
+            out.as_os_str() == crate::args::STANDARD_STREAM || Format::of_name(out).is_some();
+        if !folder && (refused || out.exists()) {
+            return Err(Failure::Usage(format!(
+                "{}: neither a folder nor a name that ends in .ktx2 or .dds",
+                out.display()
+            )));
+        }
+        Ok(Self::Folder(out.clone()))
+    }
+
+    /// Writes all levels.
+    fn write(&self, levels: &[Level], written: &Written<'_>) -> Result<(), Failure> {
+        let folder = match self {
+            Self::Container(container, target) => {
+                return container.write(levels, written.plan, target, written.interrupt);
+            }
+            Self::Folder(folder) => folder,
+        };
+        match fs::create_dir(folder) {
+            Err(e) if e.kind() != io::ErrorKind::AlreadyExists => {
+                return Err(Failure::file(folder, &e));
+            }
+            _ => (),
+        }
+        let mut files = levels.iter().enumerate();
+        files.try_for_each(|(l, level)| written.file(folder, l, level))
+    }
+}
+
+/// What files of levels are made of.
+struct Written<'a> {
+    picture: &'a Picture,
+    plan: &'a Plan,
+    source: &'a Source,
+    interrupt: &'a Interrupt,
+}
+
+/// The format of files of one level each.
+fn file_format(depth: Depth) -> (Format, &'static str) {
+    if depth.is_float() { (Format::Exr, "exr") } else { (Format::Png, "png") }
+}
+
+impl Written<'_> {
+    /// Writes level `l`.
+    fn file(&self, folder: &Path, l: usize, level: &Level) -> Result<(), Failure> {
+        if self.interrupt.cancel().load(Ordering::Relaxed) {
+            return Err(self.interrupt.failure());
+        }
+        let plan = self.plan;
+        let (format, ending) = file_format(plan.depth);
+        let path = folder.join(format!("level_{l:02}.{ending}"));
+        let request = Request { out: Some(&path), force: plan.force, json: false };
+        let target = Target::new(&request, self.source)?;
+        let icc = match plan.written {
+            Tone::Linear => None,
+            _ => self.picture.icc.clone().filter(|_| format.carries_icc()),
+        };
+        let Level { width, height, .. } = *level;
+        let (channels, depth) = (plan.channels, plan.depth);
+        let form = Form { width, height, channels, depth, format, icc };
+        let mut writer = Writer::open(&target, self.interrupt, form)?;
+        writer.rows(&level.pixels)?;
+        writer.finish()?;
+        writer.commit()
+    }
+}

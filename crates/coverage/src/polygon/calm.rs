@@ -1,0 +1,97 @@
+//! Knots that only look like ones: edges that lie beside each other and never cross.
+
+use super::steps::Steps;
+use super::strips::AreaEdge;
+
+/// With more edges than this the question is not worth asking.
+const MOST: usize = 16;
+
+/// Edges that are out of order by less than this (in pixels) touch; they do not cross.
+const TOUCHING: f64 = 1.0 / (1u64 << 30) as f64;
+
+/// An edge in a strip of the row: the winding number it adds, and x at the strip's top and bottom.
+#[derive(Clone, Copy, Default)]
+struct Piece {
+    top: f64,
+    bottom: f64,
+    winding: i32,
+}
+
+impl Piece {
+    fn is_right_of(&self, other: &Self) -> bool {
+        self.top + self.bottom > other.top + other.bottom
+    }
+}
+
+/// Whether it is plain to see that the winding number takes no more than two values, neighbours of
+/// each other, right of `left` along row `y`: then the area follows from its mean.
+#[inline(always)]
+pub(super) fn is_calm(y: i32, left: &Steps, edges: &[AreaEdge]) -> bool {
+    if edges.len() > MOST {
+        return false;
+    }
+    // Where the edges cross the top of the row, and how far they run in 1/256 of it.
+    let mut lines = [(0.0, 0.0); MOST];
+    let mut events = left.marks();
+    for (line, e) in lines.iter_mut().zip(edges) {
+        let top = e.slope.at(f64::from(y));
+        *line = (top, e.slope.run * e.slope.sign * (1.0 / 256.0));
+        for height in [e.from, e.to & 255] {
+            events[height as usize / 64] |= 1 << (height % 64);
+        }
+    }
+    events[0] &= !1;
+    let mut pieces = [Piece::default(); MOST];
+    let mut winding = left.top;
+    let mut range = (winding, winding);
+    let mut from = 0;
+    let mut word = 0;
+    loop {
+        while word < 4 && events[word] == 0 {
+            word += 1;
+        }
+        let mut to = 256;
+        if word < 4 {
+            to = word as i32 * 64 + events[word].trailing_zeros() as i32;
+            events[word] &= events[word] - 1;
+        }
+        let mut count = 0;
+        for (line, e) in lines.iter().zip(edges) {
+            if e.from <= from && to <= e.to {
+                let at = |height: i32| line.0 + f64::from(height) * line.1;
+                let piece = Piece { top: at(from), bottom: at(to), winding: e.winding };
+                let mut place = count;
+                while place > 0 && pieces[place - 1].is_right_of(&piece) {
+                    pieces[place] = pieces[place - 1];
+                    place -= 1;
+                }
+                pieces[place] = piece;
+                count += 1;
+            }
+        }
+        if !is_in_order(&pieces[..count]) {
+            return false;
+        }
+        let mut here = winding;
+        range = (range.0.min(here), range.1.max(here));
+        for piece in &pieces[..count] {
+            here += piece.winding;
+            range = (range.0.min(here), range.1.max(here));
+        }
+        if range.1 - range.0 > 1 {
+            return false;
+        }
+        if to == 256 {
+            return true;
+        }
+        winding += left.change(to);
+        from = to;
+    }
+}
+
+#[inline(always)]
+fn is_in_order(pieces: &[Piece]) -> bool {
+    pieces.windows(2).all(|pair| {
+        pair[0].top <= pair[1].top + TOUCHING && pair[0].bottom <= pair[1].bottom + TOUCHING
+    })
+}

@@ -1,0 +1,89 @@
+//! The gallery: what the literature draws, drawn by us.
+//!
+//! One page for each document, each picture with what is to be seen on it. Everything is a function of
+//! this source: the same bytes on every run.
+
+mod ewa;
+mod ink;
+mod lecture;
+mod page;
+mod plot;
+mod rasterizer;
+mod stage;
+
+use crate::Asset;
+use scumble_pixel::Image;
+
+/// Why the gallery could not be drawn.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum GalleryError {
+    /// A picture could not be rendered.
+    #[error("a picture: {0}")]
+    Render(#[from] scumble::RenderError<std::convert::Infallible>),
+    /// An image has no such size.
+    #[error("an image: {0}")]
+    Image(#[from] scumble_pixel::ImageError),
+    /// A triangle or a pattern could not be made.
+    #[error("a shape: {0}")]
+    Coverage(#[from] scumble::coverage::CoverageError),
+    /// A filter could not be made.
+    #[error("a filter: {0}")]
+    Signal(#[from] scumble_signal::SignalError),
+    /// The assets could not be drawn.
+    #[error("the assets: {0}")]
+    Assets(#[from] crate::LabError),
+    /// There is no such asset.
+    #[error("no asset is called {0}")]
+    Missing(String),
+    /// A scene could not be read.
+    #[error("a scene: {0}")]
+    Scene(#[from] scumble_svg::SvgError),
+    /// A picture could not be encoded.
+    #[error("cannot encode a picture: {0}")]
+    Encode(#[from] png::EncodingError),
+}
+
+/// A finished picture.
+type Picture = Image<[u8; 4]>;
+
+/// What a picture becomes, or why it does not.
+type Drawn = Result<Picture, GalleryError>;
+
+/// One picture with its words.
+struct Figure {
+    /// The file's name without its ending.
+    name: &'static str,
+    title: &'static str,
+    /// What to look at, in Markdown.
+    look: &'static str,
+    draw: fn() -> Drawn,
+}
+
+/// A page about one document.
+struct Page {
+    /// The file's name without its ending, and the folder of its pictures.
+    name: &'static str,
+    title: &'static str,
+    /// What stands before the pictures, in Markdown.
+    intro: &'static str,
+    figures: &'static [Figure],
+}
+
+const PAGES: [&Page; 3] = [&lecture::PAGE, &rasterizer::PAGE, &ewa::PAGE];
+
+/// Every page and picture, relative to the gallery's folder.
+///
+/// # Errors
+/// [`GalleryError`], if a picture cannot be drawn or encoded.
+pub fn files() -> Result<Vec<Asset>, GalleryError> {
+    let mut files = vec![page::index(&PAGES)];
+    for page in PAGES {
+        files.push(page::page(page));
+        for figure in page.figures {
+            let path = format!("{}/{}.png", page.name, figure.name);
+            files.push(Asset { path, bytes: ink::encode(&(figure.draw)()?)? });
+        }
+    }
+    Ok(files)
+}

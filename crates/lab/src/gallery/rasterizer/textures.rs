@@ -1,0 +1,133 @@
+//! Textures: how they are read, from which level, and what that takes.
+
+use crate::gallery::Drawn;
+use crate::gallery::ink::{BLUE, RED, codes, finish};
+use crate::gallery::stage::{scene, shot};
+use crate::svg::hue;
+use scumble::coverage::SamplePattern;
+use scumble::texture::{LevelMode, PixelFilter};
+use scumble_geometry::{DVec2, Homography, Rect};
+use scumble_pixel::{Image, Straight};
+use scumble_sheet::{Anchor, Cell, Drawing, INK, contact_sheet};
+
+pub(super) fn nearest_and_bilinear() -> Drawn {
+    let scene = scene("map")?;
+    let mut cells = Vec::new();
+    let filters = [(PixelFilter::Nearest, "nearest"), (PixelFilter::Bilinear, "bilinear")];
+    for (pixel, name) in filters {
+        for samples in [1, 16] {
+            let picture = shot(&scene, [800, 600], [268, 210, 90, 70], |settings| {
+                settings.pattern = SamplePattern::grid(samples)?;
+                settings.sampler = settings.sampler.with(pixel, LevelMode::Zero);
+                Ok(())
+            })?;
+            let plural = if samples == 1 { "" } else { "s" };
+            cells.push(Cell::new(picture, [format!("{name}, {samples} sample{plural}")]));
+        }
+    }
+    finish(contact_sheet(&cells, 2, 3))
+}
+
+pub(super) fn pixel_and_level() -> Drawn {
+    let scene = scene("ground")?;
+    let mut cells = Vec::new();
+    let levels = [
+        (LevelMode::Zero, "level zero"),
+        (LevelMode::Nearest, "nearest level"),
+        (LevelMode::Linear, "between levels"),
+    ];
+    for (level, level_name) in levels {
+        let ellipse = scumble::texture::Sampler::DEFAULT.pixel;
+        let filters = [
+            (PixelFilter::Nearest, "nearest"),
+            (PixelFilter::Bilinear, "bilinear"),
+            (ellipse, "EWA"),
+        ];
+        for (pixel, name) in filters {
+            let picture = shot(&scene, [800, 600], [300, 190, 290, 160], |settings| {
+                settings.sampler = settings.sampler.with(pixel, level);
+                Ok(())
+            })?;
+            cells.push(Cell::new(picture, [format!("{name}, {level_name}")]));
+        }
+    }
+    let auto = shot(&scene, [800, 600], [300, 190, 290, 160], |_| Ok(()))?;
+    cells.push(Cell::new(auto, ["EWA, level auto"]));
+    finish(contact_sheet(&cells, 3, 1))
+}
+
+/// The colour of a level, from red for the finest on.
+fn tint(level: u32) -> Straight {
+    let [r, g, b] = hue(f64::from(level) / 9.0).map(|v| (0.25 + 0.65 * v) as f32);
+    Straight([r, g, b, 1.0])
+}
+
+pub(super) fn levels() -> Drawn {
+    const WIDTH: usize = 640;
+    const HEIGHT: usize = 260;
+    const HORIZON: f64 = 12.3;
+    const LEVELS: u32 = 8;
+    // From the screen to texels: what is one pixel below the horizon is farthest.
+    let scale = 150.0;
+    let map = Homography::new([
+        [scale, 0.0, -scale * WIDTH as f64 / 2.0],
+        [0.0, 0.0, scale * 120.0],
+        [0.0, 1.0, -HORIZON],
+    ]);
+    let picture = Image::from_fn(WIDTH, HEIGHT, |x, y| {
+        let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+        let (Some(here), true) = (map.project(at), at.y > HORIZON + 1.0) else {
+            return [230, 236, 240, 255];
+        };
+        let step = |d: DVec2| map.project(at + d * 1e-4).map_or(0.0, |p| (p - here).length() * 1e4);
+        let size = step(DVec2::new(1.0, 0.0)).max(step(DVec2::new(0.0, 1.0)));
+        // The logarithm, rounded down: how often it can be halved.
+        let (mut level, mut left) = (0, size);
+        while left >= 2.0 && level < LEVELS {
+            left /= 2.0;
+            level += 1;
+        }
+        // The texels of the plane, in squares of 64, show how it lies.
+        let square = ((here.x / 64.0).floor() + (here.y / 64.0).floor()) as i64 % 2 == 0;
+        let [r, g, b, a] = codes(tint(level));
+        let shade = |v: u8| if square { v } else { v - v / 5 };
+        [shade(r), shade(g), shade(b), a]
+    })?;
+    let mut drawing = Drawing::new(WIDTH as u32 + 24, HEIGHT as u32 + 60);
+    drawing.picture(picture, 12, 12, 1);
+    for level in 0..=LEVELS {
+        let x = 12.0 + 70.0 * f64::from(level);
+        let y = HEIGHT as f64 + 24.0;
+        drawing.rect(Rect::new(x, y, x + 20.0, y + 14.0), tint(level));
+        let at = DVec2::new(x + 27.0, y + 12.0);
+        drawing.text(at, 14.0, Anchor::Start, &level.to_string(), INK);
+    }
+    finish(drawing)
+}
+
+pub(super) fn memory() -> Drawn {
+    let mut drawing = Drawing::new(640, 300);
+    let (mut x, mut side) = (16.0, 256.0);
+    let mut color = BLUE;
+    for level in 0..9 {
+        drawing.rect(Rect::new(x, 272.0 - side, x + side, 272.0), color);
+        if level < 5 {
+            let words = ["1", "1/4", "1/16", "1/64", "1/256"][level];
+            let at = DVec2::new(x + side / 2.0, 290.0);
+            if side > 20.0 {
+                drawing.text(at, 14.0, Anchor::Middle, words, INK);
+            }
+        }
+        x += side + 8.0;
+        side /= 2.0;
+        color = RED;
+    }
+    drawing.text(
+        DVec2::new(300.0, 60.0),
+        16.0,
+        Anchor::Start,
+        "the texture, and a third of it more",
+        INK,
+    );
+    finish(drawing)
+}
