@@ -7,6 +7,7 @@ mod info;
 mod mip;
 mod signal;
 mod value;
+mod warp;
 
 pub(crate) use choice::{
     Antialias, Interpolate, Level, Pattern, Pixel, Profile, Shade, Space, name as choice_name,
@@ -17,6 +18,7 @@ pub(crate) use info::{Info, ReadLimits};
 pub(crate) use mip::{Edge, LevelFilter, Mip, StoredAs};
 pub(crate) use signal::{Border, Convolution, Filter, Memory, Of, Spectrum, Window};
 pub(crate) use value::{Background, Crop};
+pub(crate) use warp::{Depth, PixelOrigin, Quad, Size as WarpSize, Warp, Way};
 
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
@@ -52,6 +54,8 @@ Exit status:
 pub(crate) enum Command {
     /// Draw a scene into a PNG
     Render(Box<Render>),
+    /// Warp a picture: perspective, rectification, any map
+    Warp(Box<Warp>),
     /// Make the mip levels of a picture
     Mip(Box<Mip>),
     /// Compare two pictures
@@ -261,11 +265,11 @@ pub(crate) struct Limits {
     #[arg(short = 'j', long, value_name = "N", default_value_t = 0, value_parser = value::threads)]
     pub(crate) threads: usize,
 
-    /// Memory for the scene, its images and the drawing, in bytes; K, M, G are powers of 1024
+    /// Memory for what is read and what is drawn, in bytes; K, M, G are powers of 1024
     #[arg(long, value_name = "BYTES", default_value = "4G", value_parser = value::bytes)]
     pub(crate) max_memory: u64,
 
-    /// Pixels of the picture and of each image in the scene; K, M, G are powers of 1000
+    /// Pixels of the picture and of each image that is read; K, M, G are powers of 1000
     #[arg(long, value_name = "PIXELS", default_value = "1G", value_parser = value::count)]
     pub(crate) max_pixels: u64,
 }

@@ -1,5 +1,5 @@
 //! The `scumble` command. `scumble render SCENE` draws a scene into a PNG, `scumble compare` draws one by
-//! several settings; `mip`, `diff`, `spectrum` and `filter` are for pictures, `info` for both.
+//! several settings; `warp`, `mip`, `diff`, `spectrum` and `filter` are for pictures, `info` for both.
 //!
 //! Exit status: 0 done, 1 failure, 2 wrong arguments, 3 a limit was hit, 4 pictures differ, 128 + n ended
 //! by signal n.
@@ -25,6 +25,7 @@ mod resources;
 mod settings;
 mod size;
 mod spectrum;
+mod warp;
 
 use args::{Cli, Command};
 use clap::{CommandFactory, Parser};
@@ -41,6 +42,7 @@ fn main() -> ExitCode {
         Command::Compare(options) => compare::run(&options),
         Command::Spectrum(options) => spectrum::run(&options),
         Command::Filter(options) => filter::run(&options),
+        Command::Warp(options) => warp::run(&options),
         Command::Completions { shell } => completions(shell),
     };
     match result {

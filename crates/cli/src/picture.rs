@@ -93,6 +93,16 @@ impl Channels {
         matches!(self, Self::Gray | Self::GrayAlpha)
     }
 
+    /// The same with alpha.
+    pub(crate) fn with_alpha(self) -> Self {
+        if self.is_gray() { Self::GrayAlpha } else { Self::Rgba }
+    }
+
+    /// The same without alpha.
+    pub(crate) fn without_alpha(self) -> Self {
+        if self.is_gray() { Self::Gray } else { Self::Rgb }
+    }
+
     /// What reports call it.
     pub(crate) fn name(self) -> &'static str {
         match self {

@@ -143,7 +143,7 @@ fn pattern(asked: Option<Pattern>, default: Pattern, samples: u32) -> Result<Pat
     }
 }
 
-fn crop(canvas: &Canvas) -> Result<Option<IntRect>, Failure> {
+pub(crate) fn crop(canvas: &Canvas) -> Result<Option<IntRect>, Failure> {
     let Some(crop) = canvas.crop else { return Ok(None) };
     // A crop lies in the canvas, so its corners are no larger than its sides.
     let int = |v: u32| i32::try_from(v).map_err(|_| Failure::Limit("the crop is too far".into()));

@@ -28,8 +28,14 @@ impl Canvas {
     pub(crate) fn new(view: &View, size: &Size, max_pixels: u64) -> Result<Self, Failure> {
         let (width, height) = sides(view, size)?;
         let canvas = Self { width, height, crop: size.crop };
-        canvas.check_crop()?;
-        let (w, h) = canvas.picture();
+        canvas.check(max_pixels)?;
+        Ok(canvas)
+    }
+
+    /// Refuses a crop that is not in the canvas, and a picture of more than `max_pixels`.
+    pub(crate) fn check(&self, max_pixels: u64) -> Result<(), Failure> {
+        self.check_crop()?;
+        let (w, h) = self.picture();
         let pixels = u64::from(w) * u64::from(h);
         if pixels > max_pixels {
             return Err(Failure::Limit(format!(
@@ -37,7 +43,7 @@ impl Canvas {
                  allowed (--max-pixels)"
             )));
         }
-        Ok(canvas)
+        Ok(())
     }
 
     /// Width and height of the picture.

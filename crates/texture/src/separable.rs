@@ -5,6 +5,8 @@ use crate::Wrap;
 use crate::kernel::{THIRD, cubic, lanczos};
 use crate::level::Level;
 use crate::math::floor;
+use crate::pyramid::plan::Span;
+use crate::texel::color;
 
 /// A kernel for interpolation between texels, applied along columns and then along rows.
 ///
@@ -73,21 +75,48 @@ impl Separable {
         let rows: [f32; N] = self.weights((y - y0) as f32);
         let (x0, y0) = (x0 as i32, y0 as i32);
         let first = 1 - (N / 2) as i32;
+        let texels = square::<N>(level, wrap, x0.wrapping_add(first), y0.wrapping_add(first));
         // About a texel, so that a constant stays what it is.
-        let centre = level.texel(x0, y0, wrap);
-        let mut sum = centre;
-        for (j, row) in rows.iter().enumerate() {
-            let mut along = [0.0; 4];
-            for (i, column) in columns.iter().enumerate() {
-                let texel = level.texel(x0 + first + i as i32, y0 + first + j as i32, wrap);
-                for c in 0..4 {
-                    along[c] += column * (texel[c] - centre[c]);
-                }
+        let centre = texels[N / 2 - 1][N / 2 - 1];
+        let centres = [centre; N];
+        // Down each column first: sums of whole rows, in loops over all of their channels.
+        let mut down = [[0.0; 4]; N];
+        for (weight, row) in rows.iter().zip(&texels) {
+            let channels = row.as_flattened().iter().zip(centres.as_flattened());
+            for (sum, (texel, centre)) in down.as_flattened_mut().iter_mut().zip(channels) {
+                *sum += weight * (texel - centre);
             }
+        }
+        let mut sum = centre;
+        for (weight, column) in columns.iter().zip(&down) {
             for c in 0..4 {
-                sum[c] += row * along[c];
+                sum[c] += weight * column[c];
             }
         }
         sum
     }
+}
+
+/// `N` by `N` texels, the first at (x, y); they may lie outside.
+#[inline(always)]
+fn square<const N: usize>(level: &Level, wrap: Wrap, x: i32, y: i32) -> [[[f32; 4]; N]; N] {
+    let [columns, rows] = level.part;
+    let holds = |span: Span, i: i32| (i >= span.start as i32) & (i <= span.end as i32 - N as i32);
+    if holds(columns, x) & holds(rows, y) {
+        let first = level.index(x, y);
+        let row = |j: usize| level.texels.get(first + j * level.stride..)?.first_chunk::<N>();
+        if let (Some(_), Some(_)) = (row(0), row(N - 1)) {
+            return core::array::from_fn(|j| row(j).map_or([[0.0; 4]; N], |t| t.map(color)));
+        }
+    }
+    square_across(level, wrap, x, y)
+}
+
+/// The same, one by one.
+#[cold]
+#[inline(never)]
+fn square_across<const N: usize>(level: &Level, wrap: Wrap, x: i32, y: i32) -> [[[f32; 4]; N]; N] {
+    let texel =
+        |i: usize, j: usize| level.texel(x.wrapping_add(i as i32), y.wrapping_add(j as i32), wrap);
+    core::array::from_fn(|j| core::array::from_fn(|i| texel(i, j)))
 }

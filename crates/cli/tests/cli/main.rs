@@ -11,3 +11,4 @@ mod output;
 mod pictures;
 mod report;
 mod signal;
+mod warp;

@@ -1,4 +1,5 @@
-//! How large a map's footprints are, before any is sampled: which levels the pyramid must have.
+//! How large a map's footprints are and where they lie, before any is sampled: which levels the pyramid
+//! must have, and which part of the source.
 
 use super::Map;
 use super::view::View;
@@ -11,36 +12,32 @@ const CELLS: u32 = 32;
 /// The part of a source from which on all of it is taken.
 const WORTH: f64 = 0.5;
 
-/// By how much the axes of a map of one's own, which is only looked at in places, may lie beyond what
-/// was seen there.
+/// By how much the axes of a map of one's own, which is only looked at in places, may exceed what was
+/// seen there.
 const DOUBT: f64 = 2.0;
 
-/// Bounds of the axes of footprints, the major first, in texels per pixel.
+/// Upper bounds of the axes of footprints, the major first, in texels per pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Extent {
-    pub(super) least: [f64; 2],
     pub(super) most: [f64; 2],
 }
 
 impl Extent {
     /// Nothing is seen.
-    const NONE: Self = Self { least: [f64::INFINITY; 2], most: [0.0; 2] };
+    const NONE: Self = Self { most: [0.0; 2] };
 
     /// Of all pixels of an output of the given size. `source` is its size if only what it covers
     /// counts.
     pub(super) fn of<M: Map>(map: &M, output: [u32; 2], source: Option<[usize; 2]>) -> Self {
-        let extent = match map.homography() {
+        match map.homography() {
             Some(h) => Self::projective(&h, output, source),
             None => Self::seen(map, output),
-        };
-        // Nothing to be seen, or only what is infinitely far.
-        if extent == Self::NONE { Self { least: [0.0; 2], ..extent } } else { extent }
+        }
     }
 
     fn and(&mut self, other: Self) {
-        for k in 0..2 {
-            self.least[k] = self.least[k].min(other.least[k]);
-            self.most[k] = self.most[k].max(other.most[k]);
+        for (most, other) in self.most.iter_mut().zip(other.most) {
+            *most = most.max(other);
         }
     }
 
@@ -50,7 +47,15 @@ impl Extent {
         let mut all = Self::NONE;
         for corners in cells(all_of(output)) {
             if !view.misses(&corners) {
-                all.and(Self::of_cell(map, &corners));
+                let ends = corners.map(|p| map.project_homogeneous(p));
+                let (ahead, behind) =
+                    (ends.iter().all(|p| p.z > 0.0), ends.iter().all(|p| p.z <= 0.0));
+                let endless = Self { most: [f64::INFINITY; 2] };
+                match (ahead, behind) {
+                    (true, _) => all.and(Self::before_eye(map, &ends)),
+                    (false, true) => (),
+                    (false, false) => all.and(endless),
+                }
             }
         }
         all
@@ -96,21 +101,6 @@ impl Extent {
         part.then(|| IntRect::new(x0 as i32, y0 as i32, x1 as i32, y1 as i32))
     }
 
-    /// Of the part of a cell that lies before the eye. Where the horizon cuts it, the least axes are
-    /// those at its corners: toward the horizon they only grow.
-    fn of_cell(map: &Homography, corners: &[DVec2; 4]) -> Self {
-        let ends = corners.map(|p| map.project_homogeneous(p));
-        if ends.iter().all(|p| p.z > 0.0) {
-            return Self::before_eye(map, &ends);
-        }
-        let mut extent = Self::NONE;
-        for p in corners.iter().filter(|p| map.project_homogeneous(**p).z > 0.0) {
-            let axes = map.jacobian(*p).axes();
-            extent.and(Self { least: [axes.major, axes.minor], most: [f64::INFINITY; 2] });
-        }
-        extent
-    }
-
     /// By interval arithmetic: position and w are between those at the corners, the Jacobian's entries
     /// follow, and its determinant is det H/w³.
     fn before_eye(map: &Homography, corners: &[DVec3; 4]) -> Self {
@@ -126,12 +116,9 @@ impl Extent {
         let root = difference.squared().and(cross.squared()).root();
         let major = sum.and(root).scaled(0.5).root();
         let determinant = map.determinant().abs();
-        let minor = |w: f64, major: f64| {
-            let minor = determinant / (w * w * w) / major;
-            if minor.is_nan() { 0.0 } else { minor }
-        };
-        let (least, most) = (minor(w.high, major.high), minor(w.low, major.low));
-        Self { least: [major.low, least], most: [major.high, most.min(major.high)] }
+        let minor = determinant / (w.low * w.low * w.low) / major.low;
+        // In this order a NaN becomes the major axis.
+        Self { most: [major.high, minor.min(major.high)] }
     }
 
     /// What is seen at the middles and corners of the cells, and some doubt.
@@ -141,8 +128,7 @@ impl Extent {
             let middle = (corners[0] + corners[2]) * 0.5;
             for f in [middle, corners[0]].into_iter().filter_map(|p| map.at(p)) {
                 let axes = f.jacobian.axes();
-                let axes = [axes.major, axes.minor];
-                all.and(Self { least: axes.map(|a| a / DOUBT), most: axes.map(|a| a * DOUBT) });
+                all.and(Self { most: [axes.major, axes.minor].map(|a| a * DOUBT) });
             }
         }
         all
@@ -242,22 +228,25 @@ mod tests {
                 [0.02 * m[6], 0.02 * m[7], 1.0],
             ]);
             prop_assume!(map.determinant().abs() > 1e-6);
-            let size = [70, 90];
-            let bounds = Extent::of(&map, size, None);
-            let visible = Extent::of(&map, size, Some([30, 40]));
-            for y in 0..size[1] {
-                for x in 0..size[0] {
+            let (output, source) = ([70, 90], [30, 40]);
+            let all = Extent::of(&map, output, None);
+            let visible = Extent::of(&map, output, Some(source));
+            let window = Extent::window(&map, all_of(output), (source, true), &Sampler::DEFAULT);
+            for y in 0..output[1] {
+                for x in 0..output[0] {
                     let p = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
                     let Some(f) = map.at(p) else { continue };
                     let axes = f.jacobian.axes();
-                    let axes = [axes.major, axes.minor];
                     let inside = (0.0..30.0).contains(&f.u) && (0.0..40.0).contains(&f.v);
-                    for (bounds, counts) in [(&bounds, true), (&visible, inside)] {
-                        for k in (0..2).filter(|_| counts) {
-                            let (least, most) = (bounds.least[k], bounds.most[k]);
-                            prop_assert!(axes[k] >= least * (1.0 - 1e-9), "{axes:?} {bounds:?}");
-                            prop_assert!(axes[k] <= most * (1.0 + 1e-9), "{axes:?} {bounds:?}");
+                    for (bounds, counts) in [(&all, true), (&visible, inside)] {
+                        for (axis, most) in [axes.major, axes.minor].into_iter().zip(bounds.most) {
+                            let within = axis <= most * (1.0 + 1e-9);
+                            prop_assert!(within || !counts, "{axis} {bounds:?}");
                         }
+                    }
+                    if let Some(window) = window && inside {
+                        let read = window.contains(f.u as i32, f.v as i32);
+                        prop_assert!(read, "{f:?} {window:?}");
                     }
                 }
             }
@@ -267,30 +256,34 @@ mod tests {
     #[test]
     fn a_plain_scale_is_tight() {
         let map = Homography::new([[4.0, 0.0, 1.0], [0.0, -4.0, 2.0], [0.0, 0.0, 1.0]]);
-        let Extent { least, most } = Extent::of(&map, [100, 100], None);
-        for bound in [least, most] {
-            assert!(bound.iter().all(|v| (v - 4.0).abs() < 1e-9), "{bound:?}");
-        }
+        let Extent { most } = Extent::of(&map, [100, 100], None);
+        assert!(most.iter().all(|v| (v - 4.0).abs() < 1e-9), "{most:?}");
         let behind = Homography::new(map.m.map(|row| row.map(|v| -v)));
-        assert_eq!(Extent::of(&behind, [9, 9], None), Extent { least: [0.0; 2], most: [0.0; 2] });
+        assert_eq!(Extent::of(&behind, [9, 9], None), Extent::NONE);
     }
 
     #[test]
     fn the_bounds_are_close_on_a_plane_in_perspective() {
         let map = Homography::new([[20.0, 0.0, -9000.0], [0.0, 20.0, 0.0], [0.0, 0.02, 1.0]]);
-        let Extent { least, most } = Extent::of(&map, [1280, 720], None);
-        let (mut low, mut high) = ([f64::INFINITY; 2], [0.0f64; 2]);
+        let Extent { most } = Extent::of(&map, [1280, 720], None);
+        let mut seen = [0.0f64; 2];
         for p in cells(all_of([1280, 720])).flatten() {
             let axes = map.jacobian(p).axes();
-            for (k, axis) in [axes.major, axes.minor].into_iter().enumerate() {
-                (low[k], high[k]) = (low[k].min(axis), high[k].max(axis));
-            }
+            seen = [seen[0].max(axes.major), seen[1].max(axes.minor)];
         }
-        for k in 0..2 {
-            assert!(
-                least[k] > 0.5 * low[k] && most[k] < 2.0 * high[k],
-                "{least:?} {most:?} {low:?} {high:?}"
-            );
-        }
+        assert!((0..2).all(|k| most[k] < 2.0 * seen[k]), "{most:?} {seen:?}");
+    }
+
+    #[test]
+    fn a_window_is_what_is_seen() {
+        let part = Homography::new([[0.1, 0.0, 500.0], [0.0, 0.1, 600.0], [0.0, 0.0, 1.0]]);
+        let window = |map: &Homography| {
+            Extent::window(map, all_of([100, 50]), ([1000, 1000], true), &Sampler::DEFAULT)
+        };
+        let found = window(&part).unwrap();
+        assert!(found.x0 > 490 && found.y1 < 615 && found.contains(509, 604), "{found:?}");
+        assert_eq!(window(&Homography::IDENTITY).map(|w| (w.x0, w.y0)), Some((0, 0)));
+        let whole = Homography::new([[10.0, 0.0, 0.0], [0.0, 20.0, 0.0], [0.0, 0.0, 1.0]]);
+        assert_eq!(window(&whole), None);
     }
 }
