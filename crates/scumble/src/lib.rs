@@ -10,23 +10,22 @@
 //! own; it re-exports them, so that one dependency is enough.
 #![doc = include_str!("guide.md")]
 
-mod control;
 mod error;
 mod paint;
 mod painter;
 mod plan;
 mod render;
+mod rows;
 mod schedule;
 mod settings;
-mod sink;
 mod strips;
 mod textures;
 mod tile;
 pub mod warp;
 
-pub use control::{Control, Progress};
 pub use error::RenderError;
 pub use render::{Stats, render, render_image, render_with};
+pub use rows::{Control, ImageSink, Progress, Sink};
 pub use scumble_coverage as coverage;
 pub use scumble_framebuffer as framebuffer;
 pub use scumble_geometry as geometry;
@@ -37,5 +36,4 @@ pub use settings::{
     Antialias, Background, DEFAULT_MAX_MEMORY, DEFAULT_SAMPLES, DEFAULT_TILE_SIZE, Interpolation,
     Settings, Shading,
 };
-pub use sink::{ImageSink, Sink};
 pub use textures::Textures;

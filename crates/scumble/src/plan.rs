@@ -1,7 +1,7 @@
 //! From a scene to primitives: transformed, flattened, snapped, with textures built.
 
 use crate::paint::{Paint, Textured};
-use crate::schedule::Pool;
+use crate::rows::Pool;
 use crate::{Antialias, Interpolation, Settings};
 use scumble_coverage::Shape;
 use scumble_geometry::{

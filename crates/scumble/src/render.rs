@@ -1,5 +1,6 @@
 use crate::plan::{self, Plan};
-use crate::schedule::{self, Pool};
+use crate::rows::Pool;
+use crate::schedule;
 use crate::tile::Job;
 use crate::{Background, Control, ImageSink, RenderError, Settings, Sink, Textures};
 use scumble_framebuffer::{Tile, Visibility};

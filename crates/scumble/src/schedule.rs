@@ -1,5 +1,6 @@
 //! Which tile when, on which thread, and the way of the rows to the sink.
 
+use crate::rows::{Pool, Stopped, pump};
 use crate::strips::{self, Wanted};
 use crate::tile::{Job, Workspace};
 use crate::{Antialias, Control, RenderError, Sink};
@@ -11,88 +12,6 @@ use std::sync::{Mutex, PoisonError};
 /// Tiles in flight for each thread: enough that a heavy tile does not leave the others idle.
 const TILES_PER_THREAD: usize = 8;
 
-/// One thread, or several.
-pub(crate) enum Pool {
-    Serial,
-    #[cfg(feature = "parallel")]
-    Parallel(rayon::ThreadPool),
-}
-
-impl Pool {
-    /// A pool of `threads` threads; 0 is one for each processor.
-    pub(crate) fn new(threads: usize) -> Result<Self, String> {
-        #[cfg(feature = "parallel")]
-        if threads != 1 {
-            let pool = rayon::ThreadPoolBuilder::new()
-                .num_threads(threads)
-                .build()
-                .map_err(|error| error.to_string())?;
-            if pool.current_num_threads() > 1 {
-                return Ok(Self::Parallel(pool));
-            }
-        }
-        let _ = threads;
-        Ok(Self::Serial)
-    }
-
-    pub(crate) fn threads(&self) -> usize {
-        match self {
-            Self::Serial => 1,
-            #[cfg(feature = "parallel")]
-            Self::Parallel(pool) => pool.current_num_threads(),
-        }
-    }
-
-    /// Runs a closure so that what it does in parallel runs in this pool.
-    pub(crate) fn install<T: Send>(&self, f: impl FnOnce() -> T + Send) -> T {
-        match self {
-            Self::Serial => f(),
-            #[cfg(feature = "parallel")]
-            Self::Parallel(pool) => pool.install(f),
-        }
-    }
-
-    /// Runs both, side by side if there are threads.
-    fn join<A: Send, B: Send>(
-        &self,
-        a: impl FnOnce() -> A + Send,
-        b: impl FnOnce() -> B + Send,
-    ) -> (A, B) {
-        match self {
-            Self::Serial => (a(), b()),
-            #[cfg(feature = "parallel")]
-            Self::Parallel(pool) => pool.install(|| rayon::join(a, b)),
-        }
-    }
-
-    /// What becomes of each item, in their order.
-    pub(crate) fn map<T: Send, U: Send>(
-        &self,
-        items: Vec<T>,
-        f: impl Fn(T) -> U + Sync + Send,
-    ) -> Vec<U> {
-        match self {
-            Self::Serial => items.into_iter().map(f).collect(),
-            #[cfg(feature = "parallel")]
-            Self::Parallel(pool) => {
-                use rayon::iter::{IntoParallelIterator, ParallelIterator};
-                pool.install(|| items.into_par_iter().map(f).collect())
-            }
-        }
-    }
-
-    pub(crate) fn for_each<T: Send>(&self, items: Vec<T>, f: impl Fn(T) + Sync + Send) {
-        match self {
-            Self::Serial => items.into_iter().for_each(f),
-            #[cfg(feature = "parallel")]
-            Self::Parallel(_) => {
-                use rayon::iter::{IntoParallelIterator, ParallelIterator};
-                items.into_par_iter().for_each(f);
-            }
-        }
-    }
-}
-
 /// Bands that are rendered together: at least one, and enough tiles for all threads.
 fn bands_per_group(grid: &TileGrid, threads: usize) -> usize {
     if threads <= 1 { 1 } else { (threads * TILES_PER_THREAD).div_ceil(grid.columns()) }
@@ -101,44 +20,6 @@ fn bands_per_group(grid: &TileGrid, threads: usize) -> usize {
 /// Rows held in memory at once: one group being rendered, one being handed over.
 pub(crate) fn buffered_rows(grid: &TileGrid, threads: usize) -> usize {
     2 * (bands_per_group(grid, threads) * grid.side() as usize).min(grid.area().height() as usize)
-}
-
-/// Why rows stopped coming.
-pub(crate) enum Stopped<E> {
-    /// The caller's flag was set.
-    Cancelled,
-    /// The sink failed.
-    Sink(E),
-}
-
-/// Renders groups of rows, one after the other, and hands each to the sink while the next is
-/// rendered. `render` says which rows of `height` the group has that it put into the buffer.
-pub(crate) fn pump<P: Send + Sync, S: Sink<P>>(
-    groups: usize,
-    height: u32,
-    (pool, control): (&Pool, &Control<'_>),
-    sink: &mut S,
-    mut render: impl FnMut(usize, &mut Vec<P>) -> Range<u32> + Send,
-) -> Result<(), Stopped<S::Error>> {
-    let (mut ready, mut next) = (Vec::new(), Vec::new());
-    let mut ready_rows = 0..0;
-    // One round more than there are groups: the last only hands over.
-    for group in 0..=groups {
-        let (taken, rows) = pool.join(
-            || if ready_rows.is_empty() { Ok(()) } else { sink.rows(ready_rows.start, &ready) },
-            || if group < groups { render(group, &mut next) } else { 0..0 },
-        );
-        taken.map_err(Stopped::Sink)?;
-        if control.is_cancelled() {
-            return Err(Stopped::Cancelled);
-        }
-        if !ready_rows.is_empty() {
-            control.report(ready_rows.end, height);
-        }
-        std::mem::swap(&mut ready, &mut next);
-        ready_rows = rows;
-    }
-    Ok(())
 }
 
 /// Renders all bands and hands them to the sink, which takes one group of bands while the next

@@ -3,9 +3,9 @@
 use crate::paint::{Paint, RowColors};
 use crate::painter::{Painter, Stamp, centre};
 use crate::plan::{Draw, Effect, Form, Plan};
-use crate::strips::{Strip, Wanted};
+use crate::strips::Wanted;
 use crate::{Antialias, Settings};
-use scumble_coverage::{Cover, Scratch, Sink, hairline};
+use scumble_coverage::{AreaStrip, Cover, Scratch, Sink, hairline};
 use scumble_framebuffer::{Palette, Tile, Visibility, encode_row};
 use scumble_geometry::{IntRect, Plane};
 use scumble_pixel::Premul;
@@ -139,7 +139,7 @@ struct Local<'a> {
     /// The pixels of the tile that it may touch.
     bounds: IntRect,
     /// Its areas, if they have been found before.
-    strip: Option<&'a Strip>,
+    strip: Option<&'a AreaStrip>,
 }
 
 impl Local<'_> {

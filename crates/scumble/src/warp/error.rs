@@ -1,4 +1,4 @@
-use crate::schedule::Stopped;
+use crate::rows::Stopped;
 use crate::texture::TextureError;
 use std::convert::Infallible;
 

@@ -5,7 +5,7 @@ use super::painter::Painter;
 use super::{Border, Map, OutputPixel, Source, Warp, WarpError};
 use crate::geometry::{IntRect, Rect};
 use crate::pixel::{Image, Premul};
-use crate::schedule::{Pool, pump};
+use crate::rows::{Pool, pump};
 use crate::texture::{Levels, Texture, TextureOptions};
 use crate::{Control, ImageSink, Sink};
 use std::convert::Infallible;
