@@ -20,9 +20,9 @@ impl Sampler {
     /// ```
     /// use scumble_texture::{Levels, Sampler};
     ///
-    /// // Magnified, no pyramid is read; at an eighth of the size, three levels beside the image.
+    /// // Magnified, no pyramid is read; at an eighth of the size, two levels beside the image.
     /// assert_eq!(Sampler::DEFAULT.levels_for([0.3, 0.3]), Levels::BaseOnly);
-    /// assert_eq!(Sampler::DEFAULT.levels_for([8.0, 8.0]), Levels::Range { first: 0, last: 3 });
+    /// assert_eq!(Sampler::DEFAULT.levels_for([8.0, 8.0]), Levels::Range { first: 0, last: 2 });
     /// ```
     #[must_use]
     pub fn levels_for(&self, most: [f64; 2]) -> Levels {

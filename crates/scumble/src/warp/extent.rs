@@ -92,8 +92,9 @@ impl Extent {
         let read = read.unwrap_or(Rect::new(0.0, 0.0, 1.0, 1.0));
         // From the texel nearest to the one end to the one nearest to the other.
         let span = |low: f64, high: f64, n: f64| {
-            let low = low.floor().clamp(0.0, n - 1.0);
-            (low, high.ceil().clamp(low + 1.0, n))
+            // In this form a NaN and a side of nothing are no panic.
+            let low = low.floor().max(0.0).min(n - 1.0);
+            (low, high.ceil().max(low + 1.0).min(n))
         };
         let ((x0, x1), (y0, y1)) = (span(read.x0, read.x1, width), span(read.y0, read.y1, height));
         // A NaN is the whole. Sides of textures are below 2²⁹.
