@@ -250,7 +250,7 @@ impl Visibility {
     /// The pixels of a row where every key stands for one colour, encoded to straight 8-bit sRGB;
     /// as many as both `out` and the row have. Keys beyond the palette are transparent.
     ///
-    /// The bytes are those of [`shade_row`](Self::shade_row) and [`encode_row`].
+    /// The bytes are those of [`shade_row`](Self::shade_row) and [`encode_row`](crate::encode_row).
     pub fn encode_row(&self, y: u32, palette: &Palette, out: &mut [[u8; 4]]) {
         #[cfg(feature = "std")]
         fearless_simd::dispatch!(self.level.0, _simd => self.encode_row_by(y, palette, out));

@@ -3,8 +3,9 @@
 //!
 //! A [`Warp`] says how: the map **from the output to the source**, the size of the output, the filter,
 //! what lies beyond the edge. [`Warp::prepare`] makes a texture of the source, of the part and the levels
-//! that will be read; [`Prepared::draw`] sends the rows to a [`Sink`], band by band, so that memory does not
-//! grow with the height of the output; [`Prepared::verify`] says how far the result is from brute force.
+//! that will be read; [`Prepared::draw`] sends the rows to a [`Sink`](crate::Sink), band by band, so that
+//! memory does not grow with the height of the output; [`Prepared::verify`] says how far the result is from
+//! brute force.
 //!
 //! # Conventions
 //!
