@@ -143,7 +143,6 @@ impl Pixels {
     }
 
     /// Forgets all of them and keeps the memory.
-    #[allow(dead_code)]
     pub(crate) fn clear(&mut self) {
         match self {
             Self::U8(v) => v.clear(),
@@ -165,7 +164,6 @@ impl Pixels {
 impl Picture {
     /// What writes this picture's like: the same size, channels and profile, in a format and a depth
     /// of it.
-    #[allow(dead_code)]
     pub(crate) fn form(&self, format: Format, depth: Depth) -> Form {
         let icc = self.icc.clone().filter(|_| format.carries_icc());
         let (width, height, channels) = (self.width, self.height, self.channels);

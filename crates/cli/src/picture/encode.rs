@@ -24,7 +24,6 @@ impl Encoder {
     ///
     /// A file with a profile has the numbers that the profile means. Without one, whole numbers are
     /// sRGB's and floats are light.
-    #[allow(dead_code)]
     pub(crate) fn new(space: WorkingSpace, tone: &Tone, form: &Form) -> Self {
         let written = match form.icc {
             Some(_) => tone.clone(),

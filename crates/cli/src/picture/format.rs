@@ -104,7 +104,6 @@ impl Format {
     }
 
     /// The depth that keeps most of numbers of `depth`, and no more than it needs.
-    #[allow(dead_code)]
     pub(crate) fn depth_for(self, depth: Depth) -> Depth {
         match self {
             _ if self.carries(depth) => depth,

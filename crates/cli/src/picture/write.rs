@@ -60,7 +60,6 @@ impl Form {
 
     /// Bytes that a [`Writer`] holds on to: all numbers, and the file that they become, but for PNG,
     /// which is written as rows come.
-    #[allow(dead_code)]
     pub(crate) fn memory(&self) -> u64 {
         match self.format {
             Format::Png => 0,
