@@ -141,6 +141,7 @@ mod pyramid;
 mod radial;
 mod reach;
 pub mod reference;
+mod run;
 mod sampler;
 mod separable;
 mod simd;
