@@ -129,16 +129,16 @@ impl Job<'_> {
             }
         })
         .map_err(|e| self.failure(e))?;
-        let encode = sink.spent();
-        let elapsed = start.elapsed();
+        let (elapsed, spent) = (start.elapsed(), sink.spent());
         let threads = prepared.stats().threads;
+        // On several threads rows are encoded while others are made.
+        let warp = if threads > 1 { elapsed } else { elapsed.saturating_sub(spent) };
         let verification =
             if self.options.verify { Some(self.verify(&prepared, depth)?) } else { None };
         let finish = Instant::now();
         sink.commit()?;
         self.interrupt.release();
-        let encode = encode + finish.elapsed();
-        let warp = elapsed.saturating_sub(encode);
+        let encode = spent + finish.elapsed();
         Ok(Done { depth, threads, warp, encode, verification })
     }
 
