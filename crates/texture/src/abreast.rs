@@ -193,6 +193,7 @@ impl<S: Simd> Walks<S> {
 const ROUNDER_HIGH: f32 = (ROUNDER.to_bits() >> 16) as f32;
 
 /// Σ w·t of each walk.
+#[expect(clippy::large_enum_variant, reason = "it lives on the stack, for a moment")]
 enum Sums {
     /// Where they are sure to fit 31 bits.
     Small([[i32; 4]; ABREAST]),

@@ -16,7 +16,7 @@ pub(crate) const BUDGET: f64 = 16_384.0;
 
 /// The least ratio of V₂/s² to the switch of level at which two levels blend: 4^¾, so that the
 /// last quarter of the octave in σ blends.
-pub(crate) const BAND_START: f32 = 2.828_427_1;
+pub(crate) const BAND_START: f32 = 2.828_427;
 
 /// One over the rest of the octave.
 pub(crate) const BAND: f32 = 1.0 / (4.0 - BAND_START);

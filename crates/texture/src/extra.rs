@@ -5,6 +5,7 @@
 use crate::classic::Classic;
 use crate::radial::Radial;
 use crate::run::{Listed, Run};
+use crate::square::Square;
 use crate::texture::point_mode;
 use crate::{Footprint, Kernel, Magnify, PixelFilter, Sampler, Separable, Texture};
 use crate::{place, point, probes};
@@ -52,6 +53,7 @@ fn fill_impl(t: &Texture, run: impl Run, s: &Sampler, out: &mut [Premul]) {
 enum Area {
     Gaussian,
     Radial(Radial),
+    Square(Square),
     Classic(Classic),
     /// At most so many.
     Probes(u32),
@@ -75,6 +77,7 @@ impl Area {
         match (s.kernel, s.magnify) {
             (_, Magnify::Radial(_)) => Self::Radial(Radial::new(s)),
             (Kernel::Gaussian, _) => Self::Gaussian,
+            (Kernel::Box, _) => Self::Square(Square::new(s)),
             _ => Self::Radial(Radial::new(s)),
         }
     }
@@ -116,6 +119,7 @@ impl Area {
                 }
             }
             Self::Radial(radial) => each(t, footprints, out, |f| radial.sample(t, f)),
+            Self::Square(square) => each(t, footprints, out, |f| square.sample(t, f)),
             Self::Classic(classic) => each(t, footprints, out, |f| classic.sample(t, f)),
             Self::Probes(most) => {
                 let mode = point_mode(s);
@@ -181,6 +185,7 @@ pub(crate) fn cost(t: &Texture, f: &Footprint, s: &Sampler) -> usize {
             Area::Separable(_) => 0,
             Area::Gaussian => t.cost_fast(f, &Sampler { magnify: Magnify::None, ..*s }),
             Area::Radial(radial) => radial.cost(t, f),
+            Area::Square(square) => square.cost(t, f),
             Area::Classic(classic) => classic.cost(t, f),
             Area::Probes(most) => probes::cost(t, f, point_mode(s), most),
         }

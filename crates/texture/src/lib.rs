@@ -145,6 +145,7 @@ mod run;
 mod sampler;
 mod separable;
 mod simd;
+mod square;
 mod taps;
 mod texel;
 mod texture;
