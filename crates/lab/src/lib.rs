@@ -28,6 +28,7 @@ mod scenes;
 mod svg;
 mod textures;
 pub mod timing;
+mod views;
 pub mod workloads;
 
 use std::path::{Path, PathBuf};

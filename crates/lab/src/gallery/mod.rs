@@ -3,6 +3,9 @@
 //! One page for each document, each picture with what is to be seen on it. Everything is a function of
 //! this source: the same bytes on every run.
 
+mod anisotropic;
+mod ellipses;
+mod enhanced_ewa;
 mod ewa;
 mod ink;
 mod lecture;
@@ -39,6 +42,12 @@ pub enum GalleryError {
     /// A scene could not be read.
     #[error("a scene: {0}")]
     Scene(#[from] scumble_svg::SvgError),
+    /// A texture could not be made.
+    #[error("a texture: {0}")]
+    Texture(#[from] scumble::texture::TextureError),
+    /// A view could not be set up.
+    #[error("a view: {0}")]
+    View(#[from] crate::views::ViewError),
     /// A picture could not be encoded.
     #[error("cannot encode a picture: {0}")]
     Encode(#[from] png::EncodingError),
@@ -70,7 +79,8 @@ struct Page {
     figures: &'static [Figure],
 }
 
-const PAGES: [&Page; 3] = [&lecture::PAGE, &rasterizer::PAGE, &ewa::PAGE];
+const PAGES: [&Page; 5] =
+    [&lecture::PAGE, &rasterizer::PAGE, &ewa::PAGE, &anisotropic::PAGE, &enhanced_ewa::PAGE];
 
 /// Every page and picture, relative to the gallery's folder.
 ///
