@@ -5,6 +5,7 @@ mod coverage;
 mod false_patterns;
 mod reconstruction;
 mod spectra;
+mod sums;
 
 use super::{Figure, Page};
 
@@ -19,7 +20,7 @@ pub(super) const PAGE: Page = Page {
     figures: &FIGURES,
 };
 
-const FIGURES: [Figure; 17] = [
+const FIGURES: [Figure; 20] = [
     Figure {
         name: "reconstruction",
         title: "A function, sampled and reconstructed",
@@ -105,6 +106,21 @@ const FIGURES: [Figure; 17] = [
         draw: false_patterns::wagon_wheel,
     },
     Figure {
+        name: "waves",
+        title: "A function as a sum of waves",
+        look: "Three sines and their sum, and what the Fourier transform makes of the sum: the three again, each \
+               at its frequency and as high as it is.",
+        draw: sums::waves,
+    },
+    Figure {
+        name: "cosines",
+        title: "A block of a picture as a sum of cosines",
+        look: "Above left the 64 products of cosines, from constant to finest. Right, how much of each is in a block \
+               of 8×8 pixels of a portrait, in codes of 255: most of it in the slow ones. Below, the block \
+               from the first coefficient alone, from the 3, 10 and 36 slowest, and from all.",
+        draw: sums::cosines,
+    },
+    Figure {
         name: "spectra",
         title: "Pictures and their spectra",
         look: "Left a picture, right its spectrum, 60 dB from white to black: frequency zero in the middle, and \
@@ -121,6 +137,14 @@ const FIGURES: [Figure; 17] = [
                mean is shown about grey. The four add up to the picture again: a test holds them to 10⁻¹². \
                `scumble filter IN OUT --band-pass 0.03,0.08` makes one.",
         draw: spectra::bands,
+    },
+    Figure {
+        name: "convolution",
+        title: "Convolution by hand",
+        look: "A filter of three weights goes along a signal, and at each place the products are added. The result is \
+               four times as high as the signal, as the weights add up to 4; divided by that, it is the \
+               signal, smoothed. At the ends a number is missing: what stands there is the border's rule.",
+        draw: sums::by_hand,
     },
     Figure {
         name: "boxes",
