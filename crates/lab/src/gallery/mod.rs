@@ -6,6 +6,8 @@
 mod anisotropic;
 mod ellipses;
 mod enhanced_ewa;
+#[cfg(test)]
+mod errata;
 mod ewa;
 mod ink;
 mod lecture;
@@ -16,6 +18,7 @@ mod stage;
 
 use crate::Asset;
 use scumble_pixel::Image;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Why the gallery could not be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -88,12 +91,40 @@ const PAGES: [&Page; 5] =
 /// [`GalleryError`], if a picture cannot be drawn or encoded.
 pub fn files() -> Result<Vec<Asset>, GalleryError> {
     let mut files = vec![page::index(&PAGES)];
-    for page in PAGES {
-        files.push(page::page(page));
-        for figure in page.figures {
-            let path = format!("{}/{}.png", page.name, figure.name);
-            files.push(Asset { path, bytes: ink::encode(&(figure.draw)()?)? });
-        }
+    files.extend(PAGES.iter().map(|page| page::page(page)));
+    let all =
+        |page: &'static &'static Page| page.figures.iter().map(move |figure| (page.name, figure));
+    let figures: Vec<(&str, &Figure)> = PAGES.iter().flat_map(all).collect();
+    for drawn in drawn(&figures) {
+        files.push(drawn?);
     }
     Ok(files)
+}
+
+/// The files of figures, in their order, each drawn by the next thread that is free.
+fn drawn(figures: &[(&str, &Figure)]) -> Vec<Result<Asset, GalleryError>> {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut mine = Vec::new();
+        while let Some((page, figure)) = figures.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let path = format!("{page}/{}.png", figure.name);
+            let file = (figure.draw)().and_then(|picture| ink::encode(&picture));
+            mine.push((path.clone(), file.map(|bytes| Asset { path, bytes })));
+        }
+        mine
+    };
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut all: Vec<(String, Result<Asset, GalleryError>)> = std::thread::scope(|scope| {
+        let spawned: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+        let mut all = work();
+        for thread in spawned {
+            match thread.join() {
+                Ok(more) => all.extend(more),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        all
+    });
+    all.sort_by(|a, b| a.0.cmp(&b.0));
+    all.into_iter().map(|(_, file)| file).collect()
 }

@@ -17,7 +17,7 @@ pub(super) fn index(pages: &[&Page]) -> Asset {
         let count = page.figures.len();
         let _ = write!(out, "\n- [{}]({}.md), {count} pictures", page.title, page.name);
     }
-    out.push('\n');
+    out.push_str("\n- [Errata of the literature](../errata.md): what errs in the documents, and where that is shown\n");
     Asset { path: "README.md".to_owned(), bytes: out.into_bytes() }
 }
 

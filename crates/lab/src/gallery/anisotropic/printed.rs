@@ -97,3 +97,6 @@ fn far(picture: &Image<[u8; 4]>) -> Image<[u8; 4]> {
     const _: () = assert!(HEIGHT > 104);
     part(picture, [0, 20, WIDTH, 84])
 }
+
+#[cfg(test)]
+mod tests;

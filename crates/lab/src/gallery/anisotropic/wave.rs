@@ -53,7 +53,7 @@ fn legend(drawing: &mut Drawing, mut x: f64, entries: &[(Straight, &str)]) {
 }
 
 /// The mean alpha of a grid of lines 2 apart and 0.05 wide, for a square pixel of this width.
-pub(super) fn mean(antialias: Antialias, pixel: f64) -> f64 {
+fn mean(antialias: Antialias, pixel: f64) -> f64 {
     const STEPS: u32 = 160;
     let grid = Grid { period: 2.0, width: 0.05, antialias, ..Grid::default() };
     let jacobian = Matrix2::new(pixel, 0.0, 0.0, pixel);
@@ -94,4 +94,22 @@ pub(super) fn means() -> Drawn {
     let below = DVec2::new(440.0, 294.0);
     drawing.text(below, 14.0, Anchor::Middle, "width of a pixel", INK);
     finish(drawing)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gallery::errata::says;
+
+    #[test]
+    fn the_clamped_distance_tends_to_one_half() {
+        let (clamped, covered) =
+            (mean(Antialias::Gradient, 100.0), mean(Antialias::Integral, 100.0));
+        says(&format!(
+            "{clamped:.3} on average at a pixel of 100 units, where the lines cover {covered:.3}"
+        ));
+        assert!((covered - (1.0 - 0.975 * 0.975)).abs() < 1e-4, "{covered}");
+        // And the integral over a whole period does not depend on the distance.
+        assert!((mean(Antialias::Integral, 0.01) - covered).abs() < 1e-3);
+    }
 }

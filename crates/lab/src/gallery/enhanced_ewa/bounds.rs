@@ -9,7 +9,7 @@ use scumble_sheet::{Anchor, Drawing, INK};
 
 /// The matrix S of an ellipse xᵀSx = 1: a, b and d of the paper.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Form {
+struct Form {
     a: f64,
     b: f64,
     d: f64,
@@ -17,7 +17,7 @@ pub(super) struct Form {
 
 impl Form {
     /// That of the unit circle's image: S = (JJᵀ)⁻¹.
-    pub(super) fn new([x, y]: Columns) -> Self {
+    fn new([x, y]: Columns) -> Self {
         let (uu, uv, vv) = (x.x * x.x + y.x * y.x, x.x * x.y + y.x * y.y, x.y * x.y + y.y * y.y);
         let det = uu * vv - uv * uv;
         Self { a: vv / det, b: -uv / det, d: uu / det }
@@ -28,13 +28,13 @@ impl Form {
     }
 
     /// Half-widths of the box: the roots of S⁻¹'s entries.
-    pub(super) fn half_widths(self) -> DVec2 {
+    fn half_widths(self) -> DVec2 {
         let det = self.a * self.d - self.b * self.b;
         DVec2::new((self.d / det).sqrt(), (self.a / det).sqrt())
     }
 
     /// The same as §6.1 has them.
-    pub(super) fn printed_half_widths(self) -> DVec2 {
+    fn printed_half_widths(self) -> DVec2 {
         let det = self.a * self.d - self.b * self.b;
         DVec2::new(self.d.sqrt() / det, self.a.sqrt() / det)
     }
@@ -125,4 +125,25 @@ pub(super) fn walks() -> Drawn {
         drawing.text(place(DVec2::new(0.0, 20.4)), 14.0, Anchor::Start, &words, INK);
     }
     finish(drawing)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gallery::errata::says;
+    use crate::svg::polar;
+
+    #[test]
+    fn the_box_is_tight_and_the_printed_one_is_not() {
+        let columns: Columns = [DVec2::new(3.0, 1.0), DVec2::new(-0.4, 2.0)];
+        let half = Form::new(columns).half_widths();
+        let reach = (0..3600).map(|k| polar(0.0, 0.0, 1.0, f64::from(k) / 3600.0));
+        let reach =
+            reach.map(|(x, y)| columns[0] * x + columns[1] * y).fold(DVec2::ZERO, DVec2::max);
+        assert!((half - reach).length() < 1e-4, "{half} {reach}");
+        let circle = Form::new([DVec2::new(0.5, 0.0), DVec2::new(0.0, 0.5)]);
+        assert_eq!(circle.half_widths(), DVec2::new(0.5, 0.5));
+        assert_eq!(circle.printed_half_widths(), DVec2::new(0.125, 0.125));
+        says("radius ½ (a = d = 4, b = 0) the printed form gives ⅛");
+    }
 }

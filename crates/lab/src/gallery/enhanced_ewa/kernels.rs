@@ -9,7 +9,7 @@ use scumble_geometry::{DVec2, Rect};
 use scumble_sheet::{Anchor, Drawing, INK};
 
 /// e^(−2x²), up to where it is cut.
-pub(super) fn gaussian(x: f64, radius: f64) -> f64 {
+fn gaussian(x: f64, radius: f64) -> f64 {
     if x.abs() > radius { 0.0 } else { exp(-2.0 * x * x) }
 }
 
@@ -43,4 +43,22 @@ pub(super) fn plot() -> Drawn {
         drawing.text(at + DVec2::new(36.0, 5.0), 14.0, Anchor::Start, words, INK);
     }
     finish(drawing)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gallery::errata::says;
+
+    #[test]
+    fn the_variance_is_a_quarter() {
+        let at = |k: i32| f64::from(k) * 1e-3;
+        let moment = |power: i32| {
+            (-5000..=5000).map(at).map(|x| x.powi(power) * gaussian(x, 9.0)).sum::<f64>()
+        };
+        let variance = moment(2) / moment(0);
+        assert!((variance - 0.25).abs() < 1e-9, "{variance}");
+        says("variance ¼, σ = ½");
+        assert!((gaussian(1.0, 1.0) - 0.135).abs() < 5e-4);
+    }
 }

@@ -141,3 +141,6 @@ pub(super) fn printed() -> Drawn {
     }
     finish(contact_sheet(&cells, 3, 1))
 }
+
+#[cfg(test)]
+mod tests;

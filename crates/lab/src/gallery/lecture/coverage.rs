@@ -285,3 +285,41 @@ pub(super) fn spokes(center: f64, radius: f64, count: u32) -> Path {
     }
     path
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gallery::errata::says;
+
+    /// L of the slides: below 0 inside, for the winding that they have, y being up.
+    fn slides(a: DVec2, b: DVec2, q: DVec2) -> f64 {
+        (b.y - a.y) * (q.x - a.x) - (b.x - a.x) * (q.y - a.y)
+    }
+
+    /// Centres of the small grid where all three are below 0.
+    fn inside(t: Points) -> usize {
+        let centres = (0..6).flat_map(|y| (0..10).map(move |x| (x, y)));
+        let all = |q: DVec2| (0..3).all(|i| slides(t[i], t[(i + 1) % 3], q) < 0.0);
+        centres.filter(|&(x, y)| all(p(f64::from(x) + 0.5, f64::from(y) + 0.5))).count()
+    }
+
+    #[test]
+    fn a_step_down_is_the_negative_difference() {
+        for i in 0..3 {
+            let (a, b) = (SMALL[i], SMALL[(i + 1) % 3]);
+            let q = p(4.0, 3.0);
+            let step = slides(a, b, q + p(0.0, 1.0)) - slides(a, b, q);
+            assert!((step + (b.x - a.x)).abs() < 1e-12, "{step}");
+        }
+        let (a, b) = (SMALL[0], SMALL[1]);
+        says(&format!("dX₀ = {:.1} and the step {:.1}", b.x - a.x, a.x - b.x));
+    }
+
+    #[test]
+    fn the_other_winding_has_no_inside() {
+        let [a, b, c] = SMALL;
+        let found = inside(SMALL).max(inside([a, c, b]));
+        assert_eq!(inside(SMALL).min(inside([a, c, b])), 0);
+        says(&format!("{found} samples one way round and 0 the other"));
+    }
+}

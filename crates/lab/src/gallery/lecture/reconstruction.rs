@@ -168,11 +168,16 @@ pub(super) fn nyquist() -> Drawn {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gallery::errata::says;
 
     #[test]
     fn sinc_is_exact_above_twice_the_highest_frequency_and_not_at_it() {
         assert!(decibels(sinc, 9) <= -75.0);
         assert!(decibels(sinc, 31) <= -75.0);
         assert!(decibels(sinc, 8) > -12.0);
+        says(&format!("{:.0} dB with 8 samples", decibels(sinc, 8)));
+        for k in 0..8 {
+            assert!(sin(TAU * 4.0 * f64::from(k) / 8.0).abs() < 1e-12);
+        }
     }
 }

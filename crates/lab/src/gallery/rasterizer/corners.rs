@@ -1,7 +1,7 @@
 //! A corner within a row, and the weights of three corners.
 
-use crate::gallery::Drawn;
 use crate::gallery::ink::{BLUE, GREEN, GREY, LIGHT, RED, finish};
+use crate::gallery::{Drawn, GalleryError};
 use scumble::coverage::{IntRect, SampleMask, SamplePattern, Scratch, Shape, Sink};
 use scumble_geometry::{DVec2, Path};
 use scumble_pixel::Straight;
@@ -25,17 +25,22 @@ impl Sink for Row {
 }
 
 /// It is nothing wide where its row begins and ends.
-pub(in crate::gallery) const WEDGE: [DVec2; 3] =
-    [DVec2::new(0.0, 0.0), DVec2::new(10.0, 0.5), DVec2::new(0.0, 1.0)];
+const WEDGE: [DVec2; 3] = [DVec2::new(0.0, 0.0), DVec2::new(10.0, 0.5), DVec2::new(0.0, 1.0)];
+
+/// Its samples.
+fn covered(pattern: &SamplePattern) -> Result<Row, GalleryError> {
+    let mut row = Row([0; COLUMNS as usize]);
+    if let Some(shape) = Shape::triangle(WEDGE)? {
+        let clip = IntRect::new(0, 0, COLUMNS, 1);
+        shape.rasterize(clip, pattern, &mut Scratch::new(), &mut row);
+    }
+    Ok(row)
+}
 
 pub(super) fn wedge() -> Drawn {
     const SIDE: f64 = 78.0;
     let pattern = SamplePattern::grid(16)?;
-    let mut row = Row([0; COLUMNS as usize]);
-    if let Some(shape) = Shape::triangle(WEDGE)? {
-        let clip = IntRect::new(0, 0, COLUMNS, 1);
-        shape.rasterize(clip, &pattern, &mut Scratch::new(), &mut row);
-    }
+    let row = covered(&pattern)?;
     let mut drawing = Drawing::new(900, 120);
     let place = |p: DVec2| DVec2::new(20.0, 20.0) + p * SIDE;
     for x in 0..=COLUMNS {
@@ -119,4 +124,31 @@ pub(super) fn weights() -> Drawn {
     );
     drawing.text(DVec2::new(450.0, 310.0), 15.0, Anchor::Start, &words, INK);
     finish(drawing)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gallery::errata::says;
+
+    #[test]
+    fn the_wedge_is_missed_from_its_borders() {
+        let pattern = SamplePattern::grid(16).unwrap();
+        let full = pattern.full_mask().0;
+        let row = covered(&pattern).unwrap().0;
+        let found: u32 = row.iter().map(|mask| (mask & full).count_ones()).sum();
+        // Along both borders only x = 0 is inside.
+        let [a, b, c] = WEDGE;
+        assert_eq!((a.x, c.x, b.x), (0.0, 0.0, 10.0));
+        says(&format!("{found} samples of 16 a pixel"));
+    }
+
+    #[test]
+    fn both_ways_to_weigh_agree() {
+        let [a, b, c] = [DVec2::new(1.0, 9.0), DVec2::new(4.0, 1.0), DVec2::new(9.0, 7.0)];
+        let p = DVec2::new(4.5, 5.0);
+        let by_area = twice_area(p, b, c) / twice_area(a, b, c);
+        let by_height = (p - foot(p, b, c)).length() / (a - foot(a, b, c)).length();
+        assert!((by_area - by_height).abs() < 1e-12, "{by_area} {by_height}");
+    }
 }

@@ -135,3 +135,38 @@ pub(super) fn memory() -> Drawn {
     drawing.text(at, 14.0, Anchor::Start, "the texture, and a third of it more", INK);
     finish(drawing)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gallery::errata::says;
+    use crate::gallery::rasterizer::PAGE;
+    use scumble::texture::{Footprint, Levels};
+
+    #[test]
+    fn a_pyramid_is_a_third_more() {
+        let whole = TextureOptions::default();
+        let base = TextureOptions { levels: Levels::BaseOnly, ..whole };
+        let memory = |o: &TextureOptions| Texture::memory_for(1024, 512, o).unwrap() as f64;
+        let ratio = memory(&whole) / memory(&base);
+        // And the margins of the levels.
+        assert!((ratio - 4.0 / 3.0).abs() < 0.03, "{ratio}");
+        let texels: usize = (0..10).map(|l| (1024 >> l) * (512 >> l)).sum();
+        says(&format!("{:.3} of it", texels as f64 / (1024.0 * 512.0)));
+        let words = PAGE.figures.iter().find(|f| f.name == "memory").unwrap().look;
+        let megabytes = format!("{:.1} MB at 8 bytes", 8e-6 * texels as f64);
+        assert!(words.contains(&megabytes), "{megabytes}");
+        assert!(words.contains(&format!("{:.0} MB at 16 bytes", 800.0 * 600.0 * 256.0 / 1e6)));
+    }
+
+    #[test]
+    fn a_difference_is_a_chord() {
+        // A plane: v = 120/y, four pixels below the horizon.
+        let map = Homography::new([[1.0, 0.0, 0.0], [0.0, 0.0, 120.0], [0.0, 1.0, 0.0]]);
+        let at = DVec2::new(0.5, 4.0);
+        let v = |p: DVec2| map.project(p).unwrap().y;
+        let chord = v(at + DVec2::new(0.0, 1.0)) - v(at);
+        let derivative = Footprint::at(&map, at).jacobian.d;
+        says(&format!("{:.1} of the derivative", chord / derivative));
+    }
+}
