@@ -235,40 +235,46 @@ pub(super) fn blocks() -> Drawn {
 }
 
 pub(super) fn supersampling() -> Drawn {
-    let points = [p(0.6, 2.8), p(5.6, 0.5), p(6.3, 4.6)];
     let mut cells = Vec::new();
-    for samples in [1_usize, 4, 16] {
-        let pattern = SamplePattern::grid(samples)?;
-        let found = find(points, 7, 5, &pattern, Traversal::Tiled)?;
-        let full = pattern.full_mask().0;
-        let mut drawing = Drawing::new(284, 204);
-        let grid = Grid { at: p(2.0, 2.0), side: 40.0, columns: 7, rows: 5 };
-        for &(x, y, mask) in &found.0 {
-            let share = (mask & full).count_ones() as f32 / samples as f32;
-            let color = std::array::from_fn(|k| 1.0 + (RED.0[k] - 1.0) * share);
-            drawing.rect(grid.pixel(x, y), Straight(color));
-        }
-        grid.lines(&mut drawing);
-        for (x, y) in (0..5).flat_map(|y| (0..7).map(move |x| (x, y))) {
-            let (px, py) = (f64::from(x), f64::from(y));
-            for &[ox, oy] in pattern.offsets() {
-                let at = p(px + f64::from(ox) / 256.0, py + f64::from(oy) / 256.0);
-                drawing.dot(grid.place(at), 1.8, INK);
-            }
-            let mask = found.0.iter().find(|f| (f.0, f.1) == (x, y)).map_or(0, |f| f.2 & full);
-            let percent = 100 * mask.count_ones() as usize / samples;
-            if percent > 0 && samples < 16 {
-                // Between the four dots, or below the one.
-                let below = if samples == 1 { 16.0 } else { 4.2 };
-                let at = grid.place(p(px + 0.5, py + 0.5)) + p(0.0, below);
-                drawing.text(at, 12.0, Anchor::Middle, &format!("{percent}%"), Straight::BLACK);
-            }
-        }
-        grid.outline(&mut drawing, &points, INK);
+    for samples in [1, 4, 16] {
         let words = if samples == 1 { "1 sample".to_owned() } else { format!("{samples} samples") };
-        cells.push(Cell::new(finish(drawing)?, [words]));
+        cells.push(Cell::new(shares(samples)?, [words]));
     }
     finish(contact_sheet(&cells, 3, 1))
+}
+
+/// A triangle by so many samples a pixel, each pixel with its share of them.
+fn shares(samples: usize) -> Drawn {
+    let points = [p(0.6, 2.8), p(5.6, 0.5), p(6.3, 4.6)];
+    let pattern = SamplePattern::grid(samples)?;
+    let found = find(points, 7, 5, &pattern, Traversal::Tiled)?;
+    let full = pattern.full_mask().0;
+    let share = |mask: u64| (mask & full).count_ones() as f32 / samples as f32;
+    let color = |share: f32| Straight(std::array::from_fn(|k| 1.0 + (RED.0[k] - 1.0) * share));
+    let mut drawing = Drawing::new(284, 204);
+    let grid = Grid { at: p(2.0, 2.0), side: 40.0, columns: 7, rows: 5 };
+    for &(x, y, mask) in &found.0 {
+        drawing.rect(grid.pixel(x, y), color(share(mask)));
+    }
+    grid.lines(&mut drawing);
+    grid.outline(&mut drawing, &points, INK);
+    for (x, y) in (0..5).flat_map(|y| (0..7).map(move |x| (f64::from(x), f64::from(y)))) {
+        for &[ox, oy] in pattern.offsets() {
+            let at = p(x + f64::from(ox) / 256.0, y + f64::from(oy) / 256.0);
+            drawing.dot(grid.place(at), 1.8, INK);
+        }
+    }
+    for &(x, y, mask) in found.0.iter().filter(|_| samples < 16) {
+        // Between the four dots, or below the one, on a plate that keeps edges off the number.
+        let below = if samples == 1 { 16.0 } else { 4.2 };
+        let at = grid.place(p(f64::from(x) + 0.5, f64::from(y) + 0.5)) + p(0.0, below);
+        let words = format!("{:.0}%", 100.0 * share(mask));
+        let half = scumble_sheet::text_width(&words, 12.0) / 2.0 + 1.5;
+        let plate = Rect::new(at.x - half, at.y - 10.4, at.x + half, at.y + 2.0);
+        drawing.rect(plate, color(share(mask)));
+        drawing.text(at, 12.0, Anchor::Middle, &words, Straight::BLACK);
+    }
+    finish(drawing)
 }
 
 /// Spokes about a point, thinner than a pixel near it.

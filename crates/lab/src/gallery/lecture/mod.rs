@@ -59,9 +59,11 @@ const FIGURES: [Figure; 20] = [
     Figure {
         name: "orders",
         title: "Orders of visiting",
-        look: "The covered pixels in the order in which they are found, from blue to red: by rows, there and \
-               back, as far as the triangle reaches, along Morton's curve and along Hilbert's. All find the \
-               same pixels; the last two stay near where they have been, which a cache likes.",
+        look: "The covered pixels in the order in which they are found, from blue to red: by rows, there and back, row \
+               by row as far as the triangle reaches, along Morton's curve and along Hilbert's. All find the same \
+               pixels. The first tests the whole width of the box in each row, the third (backtrack) leaves a \
+               row once it is out of the triangle, which does not show here; the last two stay near where \
+               they have been, which a cache likes.",
         draw: coverage::orders,
     },
     Figure {
@@ -101,7 +103,7 @@ const FIGURES: [Figure; 20] = [
         look: "A wheel of eight spokes turns clockwise, by 40° from picture to picture, a spoke marked red. Above, each \
                picture is of one moment: as the spokes look alike, 40° forward is 5° back, and the wheel \
                creeps the wrong way. Below, each is the mean of 48 moments over the whole time between two \
-               pictures: the spokes melt away, and with them the false motion; what is left, the red \
+               pictures, as light adds (`scumble_framebuffer::Exposure`): the spokes melt away, and with them the false motion; what is left, the red \
                sweep, goes the right way.",
         draw: false_patterns::wagon_wheel,
     },
