@@ -93,15 +93,10 @@ pub(crate) fn quality(args: &[&str]) -> Outcome {
     finish(cargo(run).args(args), "quality")
 }
 
-/// Has the lab draw the gallery, or compare it.
-pub(crate) fn gallery(check: bool) -> Outcome {
+/// Has the lab draw the gallery, or compare it (`--check`), or draw a part of it.
+pub(crate) fn gallery(how: Option<&str>) -> Outcome {
     let run = ["run", "--release", "--quiet", "-p", "lab", "--bin", "lab", "--", "gallery"];
-    let mut command = cargo(run);
-    command.arg("docs/gallery");
-    if check {
-        command.arg("--check");
-    }
-    finish(&mut command, "lab gallery")
+    finish(cargo(run).arg("docs/gallery").args(how), "lab gallery")
 }
 
 /// `cargo bench` over the workspace with the given arguments; after `--peers`, the comparison with

@@ -39,8 +39,8 @@ pub enum GalleryError {
     /// The assets could not be drawn.
     #[error("the assets: {0}")]
     Assets(#[from] crate::LabError),
-    /// There is no such asset.
-    #[error("no asset is called {0}")]
+    /// There is no such asset or picture.
+    #[error("there is no {0}")]
     Missing(String),
     /// A scene could not be read.
     #[error("a scene: {0}")]
@@ -92,32 +92,41 @@ const PAGES: [&Page; 5] =
 pub fn files() -> Result<Vec<Asset>, GalleryError> {
     let mut files = vec![page::index(&PAGES)];
     files.extend(PAGES.iter().map(|page| page::page(page)));
-    let all =
-        |page: &'static &'static Page| page.figures.iter().map(move |figure| (page.name, figure));
-    let figures: Vec<(&str, &Figure)> = PAGES.iter().flat_map(all).collect();
-    for drawn in drawn(&figures) {
-        files.push(drawn?);
-    }
+    files.extend(pictures("")?);
     Ok(files)
 }
 
-/// The files of figures, in their order, each drawn by the next thread that is free.
-fn drawn(figures: &[(&str, &Figure)]) -> Vec<Result<Asset, GalleryError>> {
+/// The pictures whose path, as in `lecture/moire.png`, begins with something: of one page, or one alone.
+///
+/// # Errors
+/// As [`files`]; [`GalleryError::Missing`], if there is none.
+pub fn pictures(begin: &str) -> Result<Vec<Asset>, GalleryError> {
+    let all = PAGES.iter().flat_map(|page| {
+        page.figures.iter().map(|figure| (format!("{}/{}.png", page.name, figure.name), figure))
+    });
+    let chosen: Vec<(String, &Figure)> = all.filter(|(path, _)| path.starts_with(begin)).collect();
+    if chosen.is_empty() {
+        return Err(GalleryError::Missing(begin.to_owned()));
+    }
+    draw(&chosen).into_iter().collect()
+}
+
+/// The files of figures, sorted, each drawn by the next thread that is free.
+fn draw(figures: &[(String, &Figure)]) -> Vec<Result<Asset, GalleryError>> {
     let next = AtomicUsize::new(0);
     let work = || {
         let mut mine = Vec::new();
-        while let Some((page, figure)) = figures.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let path = format!("{page}/{}.png", figure.name);
-            let file = (figure.draw)().and_then(|picture| ink::encode(&picture));
-            mine.push((path.clone(), file.map(|bytes| Asset { path, bytes })));
+        while let Some((path, figure)) = figures.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let bytes = (figure.draw)().and_then(|picture| ink::encode(&picture));
+            mine.push((path, bytes));
         }
         mine
     };
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let mut all: Vec<(String, Result<Asset, GalleryError>)> = std::thread::scope(|scope| {
-        let spawned: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+    let mut all = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
         let mut all = work();
-        for thread in spawned {
+        for thread in others {
             match thread.join() {
                 Ok(more) => all.extend(more),
                 Err(panic) => std::panic::resume_unwind(panic),
@@ -125,6 +134,6 @@ fn drawn(figures: &[(&str, &Figure)]) -> Vec<Result<Asset, GalleryError>> {
         }
         all
     });
-    all.sort_by(|a, b| a.0.cmp(&b.0));
-    all.into_iter().map(|(_, file)| file).collect()
+    all.sort_by_key(|(path, _)| *path);
+    all.into_iter().map(|(path, bytes)| Ok(Asset { path: path.clone(), bytes: bytes? })).collect()
 }

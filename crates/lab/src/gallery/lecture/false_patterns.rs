@@ -63,8 +63,9 @@ fn wagon(turn: f64) -> Drawn {
     drawing.stroke(Path::ellipse(center, DVec2::new(40.0, 40.0)), 4.0, wood);
     for k in 0..8 {
         let end = polar(middle, middle, 38.0, turn + f64::from(k) / 8.0);
-        let color: Straight = if k == 0 { RED } else { wood };
-        drawing.line([center, DVec2::new(end.0, end.1)], 3.4, color);
+        // The red one broad, so that its sweep is seen.
+        let (color, width): (Straight, f64) = if k == 0 { (RED, 7.0) } else { (wood, 3.4) };
+        drawing.line([center, DVec2::new(end.0, end.1)], width, color);
     }
     drawing.dot(center, 6.0, wood);
     finish(drawing)
