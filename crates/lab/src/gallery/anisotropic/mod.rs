@@ -27,7 +27,7 @@ const FIGURES: [Figure; 9] = [
         look: "Across the lines of a grid, 2 apart and 0.4 wide. Green: the signed distance to the nearest edge \
                of a line, a saw wave. Purple: clamp(½ − distance/pixel), the alpha that the page makes of it. \
                Red: how much of a pixel the lines cover. Where a pixel is narrower than lines and gaps both are \
-               one. At 0.5 it is wider than a line: the alpha's tip is too high. At 3, where a pixel \
+               the same. At 0.5 it is wider than a line: the alpha's tip is too high. At 3, where a pixel \
                always sees more than one line, the alpha has nothing to do with what is covered; the wider \
                the pixel, the nearer it comes to ½ everywhere.",
         draw: wave::waves,

@@ -81,8 +81,9 @@ const FIGURES: [Figure; 12] = [
         name: "box",
         title: "The bounding box, as derived and as printed",
         look: "The paper derives that the box's half-widths are the roots of the entries of S⁻¹, √(d/(ad − b²)) and \
-               √(a/(ad − b²)) (red). Its example in §6.1 has √d/(ad − b²) and √a/(ad − b²) (purple): ⅛ instead of ½ \
-               for the circle of radius ½, and too large for an ellipse of more than π texels.",
+               √(a/(ad − b²)) (red). Its example in §6.1 has √d/(ad − b²) and √a/(ad − b²) (purple), which is that \
+               times the ellipse's area over π: ⅛ instead of ½ for the circle of radius ½, and too much \
+               for an ellipse of more than π texels.",
         draw: bounds::printed_box,
     },
     Figure {

@@ -318,7 +318,7 @@ mod tests {
             assert!((step + (b.x - a.x)).abs() < 1e-12, "{step}");
         }
         let (a, b) = (SMALL[0], SMALL[1]);
-        says(&format!("dX₀ = {:.1} and the step {:.1}", b.x - a.x, a.x - b.x));
+        says(&format!("dX₀ = {:.1} and the step −{:.1}", b.x - a.x, b.x - a.x));
     }
 
     #[test]

@@ -175,7 +175,7 @@ mod tests {
         assert!(decibels(sinc, 9) <= -75.0);
         assert!(decibels(sinc, 31) <= -75.0);
         assert!(decibels(sinc, 8) > -12.0);
-        says(&format!("{:.0} dB with 8 samples", decibels(sinc, 8)));
+        says(&format!("−{:.0} dB with 8 samples", -decibels(sinc, 8)));
         for k in 0..8 {
             assert!(sin(TAU * 4.0 * f64::from(k) / 8.0).abs() < 1e-12);
         }

@@ -151,7 +151,7 @@ fn rebuilt(of: &[[f64; 8]; 8], below: usize) -> Result<Image<f64>, GalleryError>
 
 pub(super) fn cosines() -> Drawn {
     let mut drawing = Drawing::new(900, 420);
-    drawing.rect(Rect::new(8.0, 8.0, 300.0, 300.0), GREY);
+    drawing.rect(Rect::new(8.0, 8.0, 300.0, 300.0), BLUE);
     for (i, j) in (0..8).flat_map(|j| (0..8).map(move |i| (i, j))) {
         let tile = Image::from_fn(8, 8, |x, y| 0.5 + 0.5 * cosine(i, x) * cosine(j, y))?;
         drawing.picture(enlarged(&grey(&tile), 4)?, 12 + 36 * i as u32, 12 + 36 * j as u32, 1);

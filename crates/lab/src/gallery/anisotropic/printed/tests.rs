@@ -23,7 +23,10 @@ fn as_printed_half_of_all_axes_are_wrong() {
     };
     says(&format!("{:.1} % of 100,000", 100.0 * wrong(Signs::PRINTED)));
     // The sine's sign alone, with B as printed.
-    says(&format!("{:.1} % of them are", 100.0 * wrong(Signs { b: false, ..Signs::RIGHT })));
+    says(&format!(
+        "{:.1} % of random J get the wrong axis",
+        100.0 * wrong(Signs { b: false, ..Signs::RIGHT })
+    ));
     assert!(wrong(Signs::RIGHT) < 1e-4);
 }
 
