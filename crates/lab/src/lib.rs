@@ -31,6 +31,8 @@ pub mod timing;
 mod views;
 pub mod workloads;
 
+pub use views::ViewError;
+
 use std::path::{Path, PathBuf};
 
 /// A file of the assets folder.

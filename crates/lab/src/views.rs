@@ -106,7 +106,7 @@ fn quad(
     Ok(Surface { texture, map, extent: [zero, far] })
 }
 
-/// A plane without end below a horizon: `row` is the horizon's, `scale` the texels per pixel one
+/// A plane without end below a horizon: `horizon` is its row, `scale` the texels per pixel one
 /// pixel-height of the eye below it.
 fn plane(texture: Texture, horizon: f64, scale: f64, across: f64) -> Surface {
     let middle = WIDTH as f64 / 2.0;
@@ -125,7 +125,7 @@ fn squares() -> Result<Texture, TextureError> {
     }))
 }
 
-/// The same turned by some 45°, so that what pixels see lies aslant in the texture.
+/// The plane of [`checker`], turned by some 45°, so that what pixels see lies aslant in the texture.
 pub(crate) fn diagonal() -> Result<View, ViewError> {
     let Surface { texture, map, extent } = plane(squares()?, 24.5, 90.0, 1.0);
     Ok(View { background: SKY, surfaces: vec![Surface { texture, map: turned(&map), extent }] })
@@ -140,7 +140,7 @@ fn turned(map: &Homography) -> Homography {
     Homography::new([row(c, -s), row(s, c), w])
 }
 
-/// The same by an eye that is tilted sideways.
+/// That of [`diagonal`] by an eye that is tilted sideways.
 pub(crate) fn tilted() -> Result<View, ViewError> {
     let Surface { texture, map, extent } = plane(squares()?, 24.5, 90.0, 1.0);
     let (c, s) = (0.8, 0.6);

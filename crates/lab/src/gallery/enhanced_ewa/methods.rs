@@ -2,6 +2,7 @@
 
 use crate::gallery::Drawn;
 use crate::gallery::ink::{finish, part, shown};
+use crate::math::log10;
 use crate::views::{self, HEIGHT, View, WIDTH};
 use scumble::texture::{Kernel, LevelMode, Magnify, PixelFilter, Sampler};
 use scumble_sheet::{Cell, contact_sheet};
@@ -43,7 +44,7 @@ fn five(view: &View, crop: [usize; 4], scale: u32, judged: bool) -> Drawn {
 pub(super) fn psnr(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     let pairs = a.as_flattened().iter().zip(b.as_flattened());
     let squares: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
-    -10.0 * (squares / (3.0 * a.len() as f64)).log10()
+    -10.0 * log10(squares / (3.0 * a.len() as f64))
 }
 
 pub(super) fn aliasing() -> Drawn {

@@ -3,7 +3,7 @@
 use crate::gallery::Drawn;
 use crate::gallery::ink::{BLUE, GREEN, GREY, RED, finish};
 use crate::gallery::plot::Plot;
-use crate::math::{cos, sin};
+use crate::math::{cos, log10, sin};
 use scumble_geometry::{DVec2, Rect};
 use scumble_sheet::{Anchor, Drawing, INK};
 use std::f64::consts::{PI, TAU};
@@ -130,7 +130,7 @@ fn decibels(way: fn(u32, f64) -> f64, n: u32) -> f64 {
         error += d * d;
         power += music(x) * music(x);
     }
-    let level = 10.0 * (error / power).max(1e-12).log10();
+    let level = 10.0 * log10((error / power).max(1e-12));
     ((level * 10.0 + 0.5).floor() / 10.0).max(-75.0)
 }
 
