@@ -9,6 +9,7 @@ use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Request, Target};
 use crate::picture::{Format, Limits, Picture, read};
+use crate::progress::Steps;
 use crate::report;
 use measure::{Comparison, Seen};
 use serde_json::json;
@@ -30,15 +31,18 @@ pub(crate) fn run(options: &Diff) -> Result<(), Failure> {
         return sizes_differ(options, &names, [&a, &b]);
     }
     let seen = Seen::pair(&a, &b);
-    let comparison = Comparison::new(&seen, options.tolerance);
+    let passes = if target.is_some() { 2 } else { 1 };
+    let steps = Steps::new(options.quiet || options.json, passes * u64::from(a.height));
+    let comparison = Comparison::new(&seen, options.tolerance, &steps);
     if let Some(target) = &target {
-        triptych::write(&seen, &comparison, target, &interrupt)?;
+        triptych::write(&seen, &comparison, target, &interrupt, &steps)?;
         interrupt.release();
     }
+    steps.clear();
     let to_stdout = matches!(target, Some(Target::Stdout));
     if options.json {
         report::print(&comparison.json(&names).to_string())?;
-    } else if !to_stdout {
+    } else if !to_stdout && !options.quiet {
         report::print(&comparison.to_string())?;
     }
     if comparison.beyond == 0 { Ok(()) } else { Err(Failure::Different) }
@@ -69,6 +73,11 @@ fn sizes_differ(options: &Diff, names: &[String; 2], [a, b]: [&Picture; 2]) -> R
     } else {
         format!("sizes differ: {} × {} and {} × {}", a.width, a.height, b.width, b.height)
     };
-    report::print(&text)?;
+    // Nothing but a triptych goes to standard output where that goes there.
+    if options.output.as_deref() == Some(Path::new(STANDARD_STREAM)) {
+        crate::error::say(&text);
+    } else if !options.quiet {
+        report::print(&text)?;
+    }
     Err(Failure::Different)
 }

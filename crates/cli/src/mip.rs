@@ -12,6 +12,7 @@ use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Request, Target};
 use crate::picture::{Depth, Form, Format, Limits, Picture, Tone, Writer, read};
+use crate::progress::Steps;
 use crate::report::{milliseconds, print};
 use container::Container;
 use levels::{Level, Plan};
@@ -40,16 +41,18 @@ pub(crate) fn run(options: &Mip) -> Result<(), Failure> {
     }
 
     let start = Instant::now();
-    let levels = levels::build(&picture, &plan, &interrupt)?;
+    // Every texel is made and written.
+    let texels = u64::from(picture.width) * u64::from(picture.height) * 4 / 3;
+    let steps = Steps::new(options.quiet || options.json, 2 * texels);
+    let levels = levels::build(&picture, &plan, &interrupt, &steps)?;
     let mip = start.elapsed();
     let start = Instant::now();
-    place.write(
-        &levels,
-        &Written { picture: &picture, plan: &plan, source: &source, interrupt: &interrupt },
-    )?;
+    let (picture, plan, source, interrupt) = (&picture, &plan, &source, &interrupt);
+    place.write(&levels, &Written { picture, plan, source, interrupt, steps: &steps })?;
     if let Some(target) = &sheet {
-        sheet::write(&levels, &plan, target, &interrupt)?;
+        sheet::write(&levels, plan, target, interrupt)?;
     }
+    steps.clear();
     interrupt.release();
     if !options.json {
         return Ok(());
@@ -123,7 +126,8 @@ impl Place {
     fn write(&self, levels: &[Level], written: &Written<'_>) -> Result<(), Failure> {
         let folder = match self {
             Self::Container(container, target) => {
-                return container.write(levels, written.plan, target, written.interrupt);
+                let Written { plan, interrupt, steps, .. } = written;
+                return container.write(levels, plan, target, interrupt, steps);
             }
             Self::Folder(folder) => folder,
         };
@@ -144,6 +148,7 @@ struct Written<'a> {
     plan: &'a Plan,
     source: &'a Source,
     interrupt: &'a Interrupt,
+    steps: &'a Steps,
 }
 
 /// The format of files of one level each.
@@ -170,7 +175,11 @@ impl Written<'_> {
         let (channels, depth) = (plan.channels, plan.depth);
         let form = Form { width, height, channels, depth, format, icc };
         let mut writer = Writer::open(&target, self.interrupt, form)?;
-        writer.rows(&level.pixels)?;
+        let row = width as usize * channels.count();
+        for y in 0..height as usize {
+            writer.part(&level.pixels, y * row..(y + 1) * row)?;
+            self.steps.add(u64::from(width));
+        }
         writer.finish()?;
         writer.commit()
     }

@@ -41,7 +41,7 @@ pub(crate) fn run(options: &Render) -> Result<(), Failure> {
     let choices = Choices::new(&options.quality, &options.color, parsed.profile)?;
     let settings = choices.settings(&canvas, options)?;
     let job = Job { source: &source, target: &target, interrupt: &interrupt, settings: &settings };
-    let (render, encode) = job.draw(&parsed, options.report.quiet)?;
+    let (render, encode) = job.draw(&parsed, options.report.quiet || options.report.json)?;
     if !options.report.json {
         return Ok(());
     }

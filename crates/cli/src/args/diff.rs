@@ -34,6 +34,10 @@ pub(crate) struct Diff {
     #[arg(long)]
     pub(crate) json: bool,
 
+    /// Say nothing but errors: the exit status tells, no progress bar
+    #[arg(short, long, conflicts_with = "json")]
+    pub(crate) quiet: bool,
+
     #[command(flatten)]
     pub(crate) limits: ReadLimits,
 }

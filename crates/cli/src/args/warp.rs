@@ -1,6 +1,7 @@
 //! The arguments of `scumble warp`.
 
 use super::{Crop, Limits, Report, Space, value};
+use crate::picture;
 use clap::{ArgGroup, Args, ValueEnum, ValueHint};
 use scumble::geometry::{DVec2, Homography};
 use scumble::pixel::Straight;
@@ -178,6 +179,17 @@ pub(crate) enum Depth {
     Sixteen,
     /// Floats of 32 bits
     Float,
+}
+
+impl Depth {
+    /// What a file calls it.
+    pub(crate) fn stored(self) -> picture::Depth {
+        match self {
+            Self::Eight => picture::Depth::Eight,
+            Self::Sixteen => picture::Depth::Sixteen,
+            Self::Float => picture::Depth::Float,
+        }
+    }
 }
 
 /// Four points.

@@ -1,6 +1,7 @@
 //! How two pictures of one size differ.
 
 use crate::picture::{Picture, Tone};
+use crate::progress::Steps;
 use serde_json::{Value, json};
 use std::fmt;
 
@@ -108,7 +109,8 @@ pub(super) struct Comparison {
 }
 
 impl Comparison {
-    pub(super) fn new(seen: &Seen<'_>, tolerance: f64) -> Self {
+    /// Compares all pixels; a row is a step.
+    pub(super) fn new(seen: &Seen<'_>, tolerance: f64, steps: &Steps) -> Self {
         let (width, height) = (seen.width(), seen.height());
         let mut found = Self {
             width,
@@ -136,6 +138,7 @@ impl Comparison {
                 row += squares;
             }
             sum += row;
+            steps.add(1);
         }
         let numbers = weights.iter().sum::<f64>() * width as f64 * height as f64;
         let mean = sum / numbers;
@@ -206,7 +209,7 @@ mod tests {
     }
 
     fn compared(a: &Picture, b: &Picture, tolerance: f64) -> Comparison {
-        Comparison::new(&Seen::pair(a, b), tolerance)
+        Comparison::new(&Seen::pair(a, b), tolerance, &Steps::new(true, 0))
     }
 
     #[test]

@@ -60,6 +60,24 @@ impl Target {
         }
     }
 
+    /// The format that its name says; a PNG where there is no ending.
+    pub(crate) fn format(&self) -> Result<Format, Failure> {
+        let path = match self {
+            Self::Stdout => return Ok(Format::Png),
+            Self::File(file) => &file.shown,
+            Self::Device(path) => path,
+        };
+        if path.extension().is_none() {
+            return Ok(Format::Png);
+        }
+        Format::of_name(path).ok_or_else(|| {
+            Failure::Usage(format!(
+                "{}: its ending names no format that is written: .png, .jpg, .webp, .tif or .exr",
+                path.display()
+            ))
+        })
+    }
+
     /// What messages call it.
     pub(crate) fn name(&self) -> String {
         match self {

@@ -55,7 +55,11 @@ fn decode(data: &[u8], limits: Limits) -> Result<Picture, Refusal> {
     }
     let budget = Budget { limits, used: data.len() as u64 };
     let format = Format::of_content(data).ok_or_else(|| {
-        Refusal::Bad("not a picture: neither PNG, JPEG, WebP, TIFF nor OpenEXR".to_owned())
+        const READ: &str = "PNG, JPEG, WebP, TIFF and OpenEXR are";
+        Refusal::Bad(match foreign(data) {
+            Some(kind) => format!("{kind} is not read; {READ}"),
+            None => format!("not a picture of a known kind; {READ} read"),
+        })
     })?;
     let stored = match format {
         Format::Png => png(data, &budget),
@@ -65,6 +69,28 @@ fn decode(data: &[u8], limits: Limits) -> Result<Picture, Refusal> {
         Format::Exr => exr::read(data, &budget),
     };
     Ok(stored?.picture(format))
+}
+
+/// What a file is, if it is something that people have and that is not read here.
+fn foreign(start: &[u8]) -> Option<&'static str> {
+    let text = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start).trim_ascii_start();
+    let brand = start.get(4..12).filter(|b| b.starts_with(b"ftyp")).map(|b| &b[4..]);
+    Some(match (start, brand) {
+        _ if text.starts_with(b"<") => "text (perhaps a scene, for `scumble render`)",
+        (_, Some(b"avif" | b"avis")) => "AVIF",
+        (_, Some(b"heic" | b"heix" | b"mif1" | b"hevc")) => "HEIC",
+        ([b'G', b'I', b'F', b'8', ..], _) => "GIF",
+        ([b'B', b'M', ..], _) => "BMP",
+        ([b'D', b'D', b'S', b' ', ..], _) => "DDS",
+        ([0xab, b'K', b'T', b'X', ..], _) => "KTX",
+        ([b'8', b'B', b'P', b'S', ..], _) => "PSD",
+        ([b'%', b'P', b'D', b'F', ..], _) => "PDF",
+        ([b'P', b'1'..=b'7' | b'F' | b'f', b'\n' | b' ' | b'\r' | b'\t', ..], _) => "PNM",
+        ([b'#', b'?', b'R', b'A', b'D', b'I', ..], _) => "Radiance HDR",
+        ([0xff, 0x0a, ..] | [0, 0, 0, 12, b'J', b'X', b'L', ..], _) => "JPEG XL",
+        ([0, 0, 0, 12, b'j', b'P', ..] | [0xff, 0x4f, 0xff, 0x51, ..], _) => "JPEG 2000",
+        _ => return None,
+    })
 }
 
 /// What is left to use.

@@ -146,7 +146,12 @@ impl Picture {
         let mut bytes = vec![0; reader.output_buffer_size().expect("a size")];
         let info = reader.next_frame(&mut bytes).expect("all rows");
         reader.finish().expect("the end");
-        let pixels = bytes.as_chunks::<4>().0.to_vec();
+        let pixels = match info.color_type {
+            png::ColorType::GrayscaleAlpha => {
+                bytes.as_chunks().0.iter().map(|&[y, a]| [y, y, y, a]).collect()
+            }
+            _ => bytes.as_chunks::<4>().0.to_vec(),
+        };
         Self { width: info.width as usize, height: info.height as usize, pixels }
     }
 
