@@ -57,8 +57,7 @@ fn target(options: &Diff, sources: &[Source; 2]) -> Result<Option<Target>, Failu
     let (force, json) = (options.force, options.json);
     let request = Request { out: Some(out), force, json };
     let target = Target::new(&request, &sources[0])?;
-    // Neither picture may be the one that is replaced.
-    Target::new(&request, &sources[1])?;
+    target.check_apart(&sources[1], force)?;
     Ok(Some(target))
 }
 

@@ -30,6 +30,12 @@ pub(crate) fn run(options: &Mip) -> Result<(), Failure> {
     source.check()?;
     let place = Place::new(options, &source)?;
     let sheet = options.sheet.as_deref().map(|out| target(out, options, &source)).transpose()?;
+    if let (Some(sheet), Some(out)) = (&sheet, options.sheet.as_deref())
+        && place.holds(sheet, out)
+    {
+        let why = format!("--sheet {}: it would replace what is made", out.display());
+        return Err(Failure::Usage(why));
+    }
 
     let start = Instant::now();
     let limits = Limits { pixels: options.limits.max_pixels, memory: options.limits.max_memory };
@@ -119,7 +125,26 @@ impl Place {
                 out.display()
             )));
         }
-        Ok(Self::Folder(out.clone()))
+        match out.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => {
+                Err(Failure::Failed(format!("{}: no such folder", parent.display())))
+            }
+            _ => Ok(Self::Folder(out.clone())),
+        }
+    }
+
+    /// Whether a sheet called `name` would stand where a level does, or all of them do.
+    fn holds(&self, sheet: &Target, name: &Path) -> bool {
+        match self {
+            Self::Container(_, Target::File(file)) => sheet.is_at(&file.path),
+            Self::Container(..) => false,
+            Self::Folder(folder) => {
+                let level = name.file_name().filter(|n| {
+                    n.to_str().is_some_and(|n| n.starts_with("level_") && n.ends_with(".png"))
+                });
+                level.is_some_and(|level| sheet.is_at(&folder.join(level)))
+            }
+        }
     }
 
     /// Writes all levels.
@@ -131,14 +156,17 @@ impl Place {
             }
             Self::Folder(folder) => folder,
         };
-        match fs::create_dir(folder) {
-            Err(e) if e.kind() != io::ErrorKind::AlreadyExists => {
-                return Err(Failure::file(folder, &e));
-            }
-            _ => (),
+        let new = match fs::create_dir(folder) {
+            Ok(()) => true,
+            Err(e) if e.kind() == io::ErrorKind::AlreadyExists => false,
+            Err(e) => return Err(Failure::file(folder, &e)),
+        };
+        let done = written.files(folder, levels);
+        if done.is_err() && new {
+            // What is in it by now is somebody else's, and then it stays.
+            let _ = fs::remove_dir(folder);
         }
-        let mut files = levels.iter().enumerate();
-        files.try_for_each(|(l, level)| written.file(folder, l, level))
+        done
     }
 }
 
@@ -157,8 +185,15 @@ fn file_format(depth: Depth) -> (Format, &'static str) {
 }
 
 impl Written<'_> {
+    /// Writes all levels, and gives them their names when the last is whole.
+    fn files(&self, folder: &Path, levels: &[Level]) -> Result<(), Failure> {
+        let files = levels.iter().enumerate().map(|(l, level)| self.file(folder, l, level));
+        let files = files.collect::<Result<Vec<Writer>, Failure>>()?;
+        files.into_iter().try_for_each(Writer::commit)
+    }
+
     /// Writes level `l`.
-    fn file(&self, folder: &Path, l: usize, level: &Level) -> Result<(), Failure> {
+    fn file(&self, folder: &Path, l: usize, level: &Level) -> Result<Writer, Failure> {
         if self.interrupt.cancel().load(Ordering::Relaxed) {
             return Err(self.interrupt.failure());
         }
@@ -181,6 +216,6 @@ impl Written<'_> {
             self.steps.add(u64::from(width));
         }
         writer.finish()?;
-        writer.commit()
+        Ok(writer)
     }
 }

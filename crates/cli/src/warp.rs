@@ -32,6 +32,15 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let out = options.out.as_deref().or(options.output.as_deref());
     let request = Request { out, force: options.force, json: options.report.json };
     let target = Target::new(&request, &source)?;
+    let lookup = options.way.map.as_deref().map(Source::new);
+    if let Some(lookup) = &lookup {
+        if *lookup == Source::Stdin && source == Source::Stdin {
+            return Err(Failure::Usage(
+                "only one of IN and --map can be standard input".to_owned(),
+            ));
+        }
+        target.check_apart(lookup, options.force)?;
+    }
     let format = target.format()?;
 
     let start = Instant::now();

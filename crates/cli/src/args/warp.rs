@@ -104,7 +104,7 @@ pub(crate) struct Way {
     pub(crate) rectify: Option<Quad>,
 
     /// A picture of floats (OpenEXR, TIFF) as large as the result: red and green are the column and
-    /// the row of the picture that each pixel shows; NaN for nothing
+    /// the row of the picture that each pixel shows; NaN for nothing; `-` is standard input
     #[arg(long, group = "way", value_name = "MAP", value_hint = ValueHint::FilePath)]
     pub(crate) map: Option<PathBuf>,
 

@@ -40,6 +40,9 @@ pub(crate) struct FileTarget {
     pub(crate) may_replace: bool,
 }
 
+/// Why a file stays.
+const READ: &str = "it is what is read; --force replaces it";
+
 /// Bytes that tell every format of pictures.
 const LONGEST_SIGNATURE: u64 = 12;
 
@@ -97,6 +100,31 @@ impl Target {
         }
     }
 
+    /// Refuses to replace another file that is read.
+    pub(crate) fn check_apart(&self, other: &Source, force: bool) -> Result<(), Failure> {
+        match self {
+            Self::File(file) if !force && is_scene(&file.path, other) => {
+                Err(refusal(&file.shown, READ))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether it is the file that a path names, or would name.
+    pub(crate) fn is_at(&self, path: &Path) -> bool {
+        let place = |path: &Path| {
+            let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
+            Some((
+                fs::canonicalize(folder.unwrap_or(Path::new("."))).ok()?,
+                path.file_name()?.to_owned(),
+            ))
+        };
+        match self {
+            Self::File(file) => place(&file.path).is_some_and(|p| Some(p) == place(path)),
+            _ => false,
+        }
+    }
+
     fn derived(scene: &Path, force: bool) -> Result<Self, Failure> {
         let stem = scene.file_stem().ok_or_else(|| {
             Failure::Usage(format!("{}: no name for the picture; use -o", scene.display()))
@@ -125,7 +153,7 @@ impl Target {
         };
         if !force {
             if is_scene(&path, source) {
-                return Err(refusal(shown, "it is what is read; --force replaces it"));
+                return Err(refusal(shown, READ));
             }
             if !is_picture(&path).map_err(|e| Failure::file(shown, &e))? {
                 return Err(refusal(shown, "it exists and is not a picture; --force replaces it"));

@@ -164,11 +164,12 @@ fn lookup(
     asked: Option<WarpSize>,
     limits: Limits,
 ) -> Result<(Map, (u32, u32)), Failure> {
-    let map = picture::read(&Source::File(path.to_owned()), limits)?;
+    let source = Source::new(path);
+    let map = picture::read(&source, limits)?;
     if !map.origin.depth.is_float() || map.channels.count() < 3 {
         return Err(Failure::Failed(format!(
             "{}: a map has floats, the column in red and the row in green",
-            path.display()
+            source.name()
         )));
     }
     let size = (map.width, map.height);
@@ -187,7 +188,7 @@ fn lookup(
         [u + origin.x as f32, v + origin.y as f32]
     };
     let positions = Image::from_fn(size.0 as usize, size.1 as usize, at);
-    let positions = positions.map_err(|e| Failure::Limit(format!("{}: {e}", path.display())))?;
+    let positions = positions.map_err(|e| Failure::Limit(format!("{}: {e}", source.name())))?;
     Ok((Map::Lookup(Lookup::new(positions)), size))
 }
 

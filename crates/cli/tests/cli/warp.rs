@@ -163,6 +163,13 @@ fn a_map_says_where_each_pixel_comes_from() {
     );
     desk.run("warp a.png c.png --map a.png").failed(1, "a.png", &["floats"]);
     desk.run("warp a.png c.png --map none.exr").failed(1, "none.exr: No such file", &[]);
+    // The map is read, too, and may be what is piped.
+    let map = std::fs::read(desk.path("map.exr")).expect("the map");
+    desk.run("warp a.png map.exr --map map.exr").failed(1, "map.exr: it is what is read", &[]);
+    assert!(map == std::fs::read(desk.path("map.exr")).expect("the map"));
+    desk.run_with_input("warp a.png c.png --map -", &map).succeeded();
+    assert_eq!(desk.picture("c.png"), b);
+    desk.run_with_input("warp - c.png --map -", &map).failed(2, "only one", &["--map"]);
 }
 
 #[test]
