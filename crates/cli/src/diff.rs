@@ -4,7 +4,7 @@ mod measure;
 mod triptych;
 
 use crate::args::{Diff, STANDARD_STREAM};
-use crate::error::Failure;
+use crate::error::{Failure, say, warn};
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Request, Target};
@@ -27,6 +27,10 @@ pub(crate) fn run(options: &Diff) -> Result<(), Failure> {
     let target = target(options, &sources)?;
     let [a, b] = [read(&sources[0], limits)?, read(&sources[1], limits)?];
     let names = sources.map(|s| s.name());
+    if !options.quiet {
+        warn(&names[0], &a.origin.notes);
+        warn(&names[1], &b.origin.notes);
+    }
     if (a.width, a.height) != (b.width, b.height) {
         return sizes_differ(options, &names, [&a, &b]);
     }
@@ -74,7 +78,7 @@ fn sizes_differ(options: &Diff, names: &[String; 2], [a, b]: [&Picture; 2]) -> R
     };
     // Nothing but a triptych goes to standard output where that goes there.
     if options.output.as_deref() == Some(Path::new(STANDARD_STREAM)) {
-        crate::error::say(&text);
+        say(&text);
     } else if !options.quiet {
         report::print(&text)?;
     }

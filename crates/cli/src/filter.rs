@@ -2,6 +2,7 @@
 
 use crate::args::{self, Convolution, Filter as Options};
 use crate::error::Failure;
+use crate::progress::Steps;
 use crate::signal::{COLOR_BYTES, Colors, Job};
 use scumble::pixel::{Image, Premul};
 use scumble_signal::{
@@ -14,6 +15,9 @@ const SPACE_BYTES: u64 = 3 * COLOR_BYTES + 4 * 8 + 2 * 8;
 
 /// What a transform takes beside: a spectrum, its copy, and columns.
 const SPECTRUM_BYTES: u64 = 3 * 16;
+
+/// Channels that are filtered, one after another.
+const CHANNELS: u64 = 4;
 
 /// A filter ready to be applied.
 enum Work {
@@ -28,7 +32,9 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let picture = job.read(work.bytes_per_pixel())?;
     let space = options.space.working();
     let colors = job.colors(&picture, space)?;
-    let filtered = work.apply(&colors).map_err(|e| Failure::Usage(e.to_string()))?;
+    let steps = Steps::new(options.files.quiet, CHANNELS);
+    let filtered = work.apply(&colors, &steps).map_err(|e| Failure::Usage(e.to_string()))?;
+    steps.clear();
     let opaque = work.is_about_zero() || picture.is_opaque();
     let offset = options.offset.unwrap_or(if work.is_about_zero() { 0.5 } else { 0.0 }) as f32;
     let image = filtered.map(|&Premul([r, g, b, a])| {
@@ -87,21 +93,28 @@ impl Work {
         }
     }
 
-    fn apply(&self, picture: &Image<Premul>) -> Result<Image<Premul>, SignalError> {
+    /// The picture filtered; a channel is a step.
+    fn apply(&self, picture: &Image<Premul>, steps: &Steps) -> Result<Image<Premul>, SignalError> {
+        type Plane = Image<f64>;
+        let channels = |filter: &dyn Fn(&Plane) -> Result<Plane, SignalError>| {
+            map_channels(picture.view(), |plane| {
+                let filtered = filter(plane);
+                steps.add(1);
+                filtered
+            })
+        };
         match self {
             Self::Band(band, shape, tiling) => {
-                map_channels(picture.view(), |p| band_filter(p.view(), *band, *shape, *tiling))
+                channels(&|p| band_filter(p.view(), *band, *shape, *tiling))
             }
             Self::Convolution(Convolution::Separable(kernel), border) => {
-                map_channels(picture.view(), |p| {
-                    Ok(convolve_separable(p.view(), kernel, kernel, *border))
-                })
+                channels(&|p| Ok(convolve_separable(p.view(), kernel, kernel, *border)))
             }
             Self::Convolution(Convolution::Matrix { columns, weights }, border) => {
                 let rows = weights.len() / columns.max(&1);
                 let make = if cancels(weights) { Kernel2::new } else { Kernel2::normalized };
                 let kernel = make(*columns, rows, weights.clone())?;
-                map_channels(picture.view(), |p| Ok(convolve(p.view(), &kernel, *border)))
+                channels(&|p| Ok(convolve(p.view(), &kernel, *border)))
             }
         }
     }

@@ -7,7 +7,7 @@ mod levels;
 mod sheet;
 
 use crate::args::{Mip, choice_name};
-use crate::error::{Failure, say};
+use crate::error::{Failure, say, warn};
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Request, Target};
@@ -41,7 +41,13 @@ pub(crate) fn run(options: &Mip) -> Result<(), Failure> {
     let limits = Limits { pixels: options.limits.max_pixels, memory: options.limits.max_memory };
     let picture = read(&source, limits)?;
     let decode = start.elapsed();
-    let plan = Plan::new(options, &picture, &place)?;
+    let name = source.name();
+    let named = |e| match e {
+        Failure::Limit(why) => Failure::Limit(format!("{name}: {why}")),
+        Failure::Failed(why) => Failure::Failed(format!("{name}: {why}")),
+        e => e,
+    };
+    let plan = Plan::new(options, &picture, &place).map_err(named)?;
     if !options.quiet {
         notes(&source, &picture, &place);
     }
@@ -50,7 +56,7 @@ pub(crate) fn run(options: &Mip) -> Result<(), Failure> {
     // Every texel is made and written.
     let texels = u64::from(picture.width) * u64::from(picture.height) * 4 / 3;
     let steps = Steps::new(options.quiet || options.json, 2 * texels);
-    let levels = levels::build(&picture, &plan, &interrupt, &steps)?;
+    let levels = levels::build(&picture, &plan, &interrupt, &steps).map_err(named)?;
     let mip = start.elapsed();
     let start = Instant::now();
     let (picture, plan, source, interrupt) = (&picture, &plan, &source, &interrupt);
@@ -85,9 +91,7 @@ pub(crate) fn run(options: &Mip) -> Result<(), Failure> {
 /// Says what the reader left out, and what the container does.
 fn notes(source: &Source, picture: &Picture, place: &Place) {
     let name = source.name();
-    for note in &picture.origin.notes {
-        say(&format!("{name}: warning: {note}"));
-    }
+    warn(&name, &picture.origin.notes);
     if matches!(place, Place::Container(..)) && picture.has_other_primaries() {
         let profile = picture.profile_name().unwrap_or_default();
         say(&format!(

@@ -2,7 +2,7 @@
 //! colours out.
 
 use crate::args::{self, InOut, ReadLimits};
-use crate::error::{Failure, say};
+use crate::error::{self, Failure};
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Request, Target};
@@ -49,9 +49,7 @@ impl<'a> Job<'a> {
         let (pixels, memory) = (self.limits.max_pixels, self.limits.max_memory);
         let picture = read(&self.source, Limits { pixels, memory })?;
         if !self.files.quiet {
-            for note in &picture.origin.notes {
-                say(&format!("{name}: warning: {note}"));
-            }
+            error::warn(&name, &picture.origin.notes);
         }
         let (width, height) = (picture.width, picture.height);
         let needed = u64::from(width) * u64::from(height);

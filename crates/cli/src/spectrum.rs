@@ -3,6 +3,7 @@
 use crate::args::{Of, Spectrum as Options, Window as Choice};
 use crate::error::Failure;
 use crate::picture::{Channels, Depth, Picture, Tone};
+use crate::progress::Steps;
 use crate::signal::{COLOR_BYTES, Colors, Job};
 use scumble::pixel::{Image, Premul, WorkingSpace};
 use scumble_signal::{Channel, Spectrum, Window, plane};
@@ -38,7 +39,12 @@ fn levels(picture: &Image<Premul>, options: &Options) -> Vec<Image<f64>> {
         Of::Blue => &[Channel::Blue],
         Of::Alpha => &[Channel::Alpha],
     };
-    let spectrum = |&c: &Channel| Spectrum::new(plane(picture.view(), c).view(), window);
+    let steps = Steps::new(options.files.quiet, channels.len() as u64);
+    let spectrum = |&c: &Channel| {
+        let spectrum = Spectrum::new(plane(picture.view(), c).view(), window);
+        steps.add(1);
+        spectrum
+    };
     let spectra: Vec<Spectrum> = channels.iter().map(spectrum).collect();
     let peak = spectra.iter().map(Spectrum::peak).fold(0.0, f64::max);
     spectra.iter().map(|spectrum| spectrum.decibels(peak, options.range)).collect()

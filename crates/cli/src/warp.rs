@@ -6,7 +6,7 @@ mod sink;
 mod way;
 
 use crate::args::{STANDARD_STREAM, Warp as Options};
-use crate::error::Failure;
+use crate::error::{self, Failure};
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Request, Target};
@@ -50,9 +50,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let (map, canvas) = way::choose(&options.way, &picture, limits)?;
     let decode = start.elapsed();
     if !options.report.quiet {
-        for note in &picture.origin.notes {
-            crate::error::say(&format!("{}: warning: {note}", source.name()));
-        }
+        error::warn(&source.name(), &picture.origin.notes);
     }
     let job = Job {
         options,
@@ -105,7 +103,7 @@ impl Job<'_> {
             magnify: filter.magnify.unwrap_or(preset.magnify),
             ..preset
         };
-        let held = self.picture.pixels.bytes();
+        let held = self.picture.pixels.bytes().saturating_add(map.memory());
         Ok(Warp {
             crop: settings::crop(&self.canvas)?,
             sampler,

@@ -34,7 +34,7 @@ pub(crate) struct Diff {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// Say nothing but errors: the exit status tells, no progress bar
+    /// Say nothing but errors: no warnings, no progress bar; the exit status tells
     #[arg(short, long, conflicts_with = "json")]
     pub(crate) quiet: bool,
 

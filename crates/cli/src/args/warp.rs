@@ -62,7 +62,7 @@ const EXAMPLES: &str = "\
 Examples:
   scumble warp poster.png out.png --to \"330,60 900,20 1180,690 240,700\" --size 1280x720
                                       the corners of the poster go to four points
-  scumble warp page.jpg page.png --rectify \"310,220 890,160 1010,930 180,820\"
+  scumble warp page.jpg page.png --rectify \"310,220 890,160 1010,930 180,820\" --magnify catmull-rom
                                       a page in a photo, straight, its aspect recovered
   scumble warp a.png b.png --matrix 0.5,0,0,0,0.5,0,0,0,1 --verify
                                       half the size, and how exact that is
@@ -99,12 +99,18 @@ pub(crate) struct Way {
     /// straight
     ///
     /// The ratio of its sides comes from the perspective, for a photo that has not been cropped; where
-    /// that says too little, from the sides as they appear.
+    /// that says too little, from the sides as they appear. Corners that are a few pixels off cost no
+    /// sharpness. Where the page is enlarged, --magnify catmull-rom keeps print crisper.
     #[arg(long, group = "way", value_name = POINTS, value_parser = quad, allow_hyphen_values = true)]
     pub(crate) rectify: Option<Quad>,
 
     /// A picture of floats (OpenEXR, TIFF) as large as the result: red and green are the column and
-    /// the row of the picture that each pixel shows; NaN for nothing; `-` is standard input
+    /// the row of the picture that each pixel shows; `-` is standard input
+    ///
+    /// Coordinates are absolute, in pixels, as --pixel-origin says; columns go right and rows down.
+    /// Where one is not finite, or an alpha is below a half, there is nothing: the result is transparent,
+    /// pixel by pixel, without a soft edge. For one, let the map go on beyond the edge of the picture, which
+    /// --border then ends softly.
     #[arg(long, group = "way", value_name = "MAP", value_hint = ValueHint::FilePath)]
     pub(crate) map: Option<PathBuf>,
 

@@ -95,6 +95,13 @@ impl Desk {
         Run::of(child.wait_with_output().expect("the command ends"))
     }
 
+    /// A run whose standard output nobody reads.
+    pub(crate) fn run_unread(&self, arguments: &str) -> Run {
+        let mut child = self.command(arguments).spawn().expect("the command starts");
+        drop(child.stdout.take());
+        Run::of(child.wait_with_output().expect("the command ends"))
+    }
+
     pub(crate) fn picture(&self, name: &str) -> Picture {
         Picture::decode(&fs::read(self.path(name)).expect("a picture"))
     }

@@ -178,7 +178,7 @@ fn slips_are_said_in_a_line_and_cost_nothing() {
     desk.run("mip a.png none/out").failed(1, "none: no such folder", &[]);
     desk.run("mip gray.png out --normal-map").failed(2, "--normal-map", &[]);
     desk.run("mip gray.png out --alpha-coverage 0.5").failed(2, "--alpha-coverage", &["no alpha"]);
-    desk.run("mip a.png out --max-memory 2K").failed(3, "", &["--max-memory"]);
+    desk.run("mip a.png out --max-memory 2K").failed(3, "a.png: ", &["--max-memory"]);
     desk.run("mip a.png out --max-pixels 71").failed(3, "a.png: ", &["--max-pixels"]);
     desk.run("mip a.png out --alpha-coverage 2").misused("alpha-coverage");
     desk.run("mip a.png out --levels 0").misused("at least one level");

@@ -30,13 +30,7 @@ const TO_A_STREAM: [&str; 4] = [
 fn a_reader_that_leaves_is_told_in_a_line() {
     let desk = desk();
     for arguments in TO_A_STREAM {
-        let mut child = desk.command(&arguments.replace("OUT", "-")).spawn().unwrap();
-        drop(child.stdout.take());
-        let output = child.wait_with_output().unwrap();
-        let err = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(1), "{arguments}: {err}");
-        assert!(err.starts_with("scumble: standard output: "), "{arguments}: {err}");
-        assert_eq!(err.matches('\n').count(), 1, "{arguments}: {err}");
+        desk.run_unread(&arguments.replace("OUT", "-")).failed(1, "standard output: ", &[]);
     }
 }
 

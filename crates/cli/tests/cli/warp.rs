@@ -173,6 +173,24 @@ fn a_map_says_where_each_pixel_comes_from() {
 }
 
 #[test]
+fn a_maps_alpha_says_where_it_holds() {
+    let desk = Desk::with("a.png", ramp());
+    let map = |alpha: fn(usize) -> f32| {
+        exr::prelude::write_rgba_file(desk.path("map.exr"), 60, 40, |x, y| {
+            (x as f32 + 0.5, y as f32 + 0.5, 0.0_f32, alpha(x))
+        })
+        .expect("a map");
+        desk.run("warp a.png b.png --map map.exr").succeeded();
+        desk.picture("b.png")
+    };
+    let half = map(|x| if x < 30 { 1.0 } else { 0.25 });
+    assert_eq!((half.at(20, 20)[3], half.at(40, 20)), (255, [0; 4]));
+    // One that is empty, or none at all, says nothing.
+    assert_eq!(map(|_| 0.0).at(40, 20)[3], 255);
+    assert_eq!(map(|_| f32::NAN).at(40, 20)[3], 255);
+}
+
+#[test]
 fn what_cannot_be_warped_is_told_in_a_line() {
     let desk = Desk::with("a.png", ramp());
     let quad = |way: &str, points: &str| {
