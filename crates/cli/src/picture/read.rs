@@ -166,12 +166,19 @@ impl Stored {
     }
 }
 
+/// Bytes that a profile may have, unpacked. Those of printers have a few million.
+const MAX_PROFILE_BYTES: u64 = 64 << 20;
+
 /// What is said of animated pictures.
 const ANIMATED: &str = "it is animated; the first picture is read";
 
 fn png(data: &[u8], budget: &Budget) -> Result<Stored, Refusal> {
+    // Beside the pixels, which have their own budget, come rows and profiles, and those unpack to a
+    // thousand times what they are in the file.
     let mut limits = image::Limits::no_limits();
-    limits.max_alloc = Some(budget.rest());
+    let row = data.get(16..20).and_then(|w| w.first_chunk()).map_or(0, |w| u32::from_be_bytes(*w));
+    let rows = u64::from(row).saturating_mul(4 * 8);
+    limits.max_alloc = Some(budget.rest().min(MAX_PROFILE_BYTES.saturating_add(rows)));
     let decoder = PngDecoder::with_limits(Cursor::new(data), limits).map_err(bad)?;
     let animated = decoder.is_apng().unwrap_or_default();
     let gamma = decoder.gamma_value().ok().flatten();
@@ -179,11 +186,29 @@ fn png(data: &[u8], budget: &Budget) -> Result<Stored, Refusal> {
     if animated {
         stored.notes.push(ANIMATED.to_owned());
     }
+    if stored.icc.is_none() && has_chunk(data, b"iCCP") {
+        stored.notes.push(profile::DAMAGED.to_owned());
+    }
     let srgb = gamma.is_none_or(|g| (g - 1.0 / 2.2).abs() < 0.01);
     if stored.icc.is_none() && !srgb {
         stored.notes.push("its gamma (gAMA) is not that of sRGB and was ignored".to_owned());
     }
     Ok(stored)
+}
+
+/// Whether a PNG has a chunk of this kind before its pixels.
+fn has_chunk(data: &[u8], kind: &[u8; 4]) -> bool {
+    let mut at = 8;
+    while let Some(&[a, b, c, d, ref found @ ..]) =
+        data.get(at..at + 8).and_then(|h| h.first_chunk::<8>())
+    {
+        if found == kind || found == b"IDAT" {
+            return found == kind;
+        }
+        // Length, kind and checksum.
+        at = at.saturating_add(12).saturating_add(u32::from_be_bytes([a, b, c, d]) as usize);
+    }
+    false
 }
 
 fn webp(data: &[u8], budget: &Budget) -> Result<Stored, Refusal> {

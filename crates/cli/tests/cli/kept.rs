@@ -86,6 +86,22 @@ fn profile(gamma: f64) -> Vec<u8> {
     [header, index, body].concat()
 }
 
+#[test]
+fn a_profile_that_unpacks_beyond_measure_is_left_out() {
+    // A hundred megabytes of zeros in a hundred kilobytes.
+    let bomb = stripes(Some(&vec![0; 100 << 20]));
+    assert!(bomb.len() < 1 << 20);
+    let desk = Desk::with("a.png", bomb);
+    let run = desk.run(&format!("warp a.png b.png {IDENTITY} --border clamp"));
+    assert_eq!(run.code, Some(0), "{}", run.err);
+    assert_eq!(run.err, "scumble: a.png: warning: its ICC profile is damaged and was left out\n");
+    assert!(codes(&desk, "b.png").0.icc_profile.is_none());
+    let data = stripes(Some(b"no profile"));
+    desk.put("c.png", data);
+    let run = desk.run("diff b.png c.png");
+    assert!(run.err.contains("c.png: warning: its ICC profile is damaged"), "{}", run.err);
+}
+
 /// Columns of black and white by turns, under a profile.
 fn stripes(icc: Option<&[u8]>) -> Vec<u8> {
     let row: Vec<u8> = (0..64).flat_map(|x| [if x % 2 == 0 { 0 } else { 255 }; 3]).collect();

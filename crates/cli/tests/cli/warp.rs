@@ -97,6 +97,32 @@ fn a_page_comes_back_straight() {
 }
 
 #[test]
+fn a_page_has_its_own_shape_again() {
+    // A sheet of A4 as a camera of 2100 pixels of focal length sees it from above at an angle.
+    let desk = Desk::with("photo.png", rgb(2400, 1800, |_, _| [200; 3]));
+    let corners = [(1084.30, 531.98), (1807.05, 633.40), (1478.99, 1654.60), (492.73, 1338.32)];
+    let ratio = |off: f64, signs: [f64; 8]| {
+        let points: Vec<String> = corners
+            .iter()
+            .zip(signs.as_chunks().0)
+            .map(|((x, y), [a, b])| format!("{},{}", x + off * a, y + off * b))
+            .collect();
+        let mut command = desk.command("warp photo.png page.png --json --force");
+        let output = command.args(["--rectify", &points.join(" ")]).output().expect("a run");
+        let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let side = |name: &str| report[name].as_f64().expect("a number");
+        side("height") / side("width")
+    };
+    let exact = f64::sqrt(2.0);
+    let signs = [1.0, 1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
+    assert!((ratio(0.0, signs) / exact - 1.0).abs() < 0.002);
+    // Clicked two pixels off.
+    for signs in [signs, signs.map(|s| -s), [1.0, -1.0, -1.0, -1.0, 1.0, -1.0, -1.0, -1.0]] {
+        assert!((ratio(2.0, signs) / exact - 1.0).abs() < 0.015, "{}", ratio(2.0, signs));
+    }
+}
+
+#[test]
 fn depth_and_format_follow_the_name_and_the_words() {
     let desk = Desk::with("a.png", ramp());
     desk.run(&format!("warp a.png b.png {IDENTITY} --depth 16 --border clamp")).succeeded();

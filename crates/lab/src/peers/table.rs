@@ -28,7 +28,7 @@ pub(super) fn page(
     rounds: usize,
 ) -> String {
     let mut out = format!(
-        "Medians of {rounds} rounds. Behind a number of ours stands its bar: ≥ or ≤ where it is met, \
+        "Rounds of the clock, whose medians these are: {rounds}. Behind a number of ours stands its bar: ≥ or ≤ where it is met, \
          < or > where it is not.\n"
     );
     for heat in heats {
