@@ -72,6 +72,18 @@ fn what_is_written_is_read() {
     assert_eq!(count, 8 + 2 + 4 + 12 + 8);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn what_is_finished_is_on_the_disk() {
+    for form in forms() {
+        let (target, interrupt) = (Target::Device("/dev/full".into()), unheard());
+        let mut writer = Writer::open(&target, &interrupt, form.clone()).unwrap();
+        writer.rows(&numbers(&form)).unwrap();
+        let full = writer.finish().unwrap_err().to_string();
+        assert!(full.contains("/dev/full: No space"), "{form:?} {full}");
+    }
+}
+
 #[test]
 fn a_jpeg_is_close() {
     let form = Form { width: 64, height: 64, ..form(Format::Jpeg, Channels::Rgb, Depth::Eight) };

@@ -169,16 +169,19 @@ impl Writer {
         Ok(())
     }
 
-    /// Says that all rows have come, and encodes what is left.
+    /// Says that all rows have come, encodes what is left, and writes it: after this a full disk is no
+    /// reason to fail any more.
     pub(crate) fn finish(&mut self) -> Result<(), Failure> {
-        self.body = match std::mem::replace(&mut self.body, Body::Failed) {
-            Body::Stream(stream) => Body::Done(stream.finish()?),
+        let output = match std::mem::replace(&mut self.body, Body::Failed) {
+            Body::Stream(stream) => stream.finish()?,
             Body::Whole { output, pixels } => {
                 encode(&output, &self.form, &pixels)?;
-                Body::Done(output)
+                output
             }
             Body::Done(_) | Body::Failed => return Err(out_of_turn()),
         };
+        output.pipe().flush().map_err(|e| output.failure(&e))?;
+        self.body = Body::Done(output);
         Ok(())
     }
 
