@@ -230,9 +230,21 @@ fn jpeg(data: &[u8], budget: &Budget) -> Result<Stored, Refusal> {
     if !jpeg_ends(data) {
         return Err(cut_off());
     }
+    let decoder = JpegDecoder::new(Cursor::new(data)).map_err(bad)?;
+    let (width, height) = decoder.dimensions();
+    // The limits first: they say more.
+    budget.check(width.into(), height.into(), 1, 1)?;
+    let most = (data.len() as u64).saturating_mul(MOST_PIXELS_PER_BYTE);
+    if u64::from(width) * u64::from(height) > most {
+        return Err(Refusal::Bad("there is too little in it for its size".to_owned()));
+    }
     // A progressive file's coefficients are two bytes a number, beside the pixels and a copy.
-    JpegDecoder::new(Cursor::new(data)).map_err(bad).and_then(|d| stored(d, budget, 4))
+    stored(decoder, budget, 4)
 }
+
+/// Pixels that a byte of a JPEG can stand for: each block of 8 by 8 takes a bit at least, of pixels or of
+/// squares of four by four.
+const MOST_PIXELS_PER_BYTE: u64 = 8 * 64 * 16;
 
 /// Whether the coded data come to their end: decoders fill in grey where they do not.
 fn jpeg_ends(data: &[u8]) -> bool {

@@ -96,6 +96,22 @@ fn a_jpeg_is_close() {
 }
 
 #[test]
+fn a_jpeg_that_is_all_header_is_damaged() {
+    let form = Form { width: 64, height: 64, ..form(Format::Jpeg, Channels::Rgb, Depth::Eight) };
+    let mut data = file(&form, &numbers(&form)).unwrap();
+    let frame = data.windows(2).position(|m| m == [0xff, 0xc0]).unwrap();
+    data[frame + 5..frame + 9].copy_from_slice(&[0x40, 0, 0x40, 0]);
+    let limits = Limits { pixels: 1 << 30, memory: 1 << 34 };
+    let refused = read_bytes("a", &data, limits).unwrap_err().to_string();
+    assert_eq!(refused, "a: there is too little in it for its size");
+    assert!(matches!(read_bytes("a", &data, ALL), Err(Failure::Limit(_))));
+    // The largest flat picture is not.
+    let flat = Form { width: 4096, height: 4096, ..form };
+    let data = file(&flat, &Pixels::U8(vec![128; 3 << 24])).unwrap();
+    assert!(read_bytes("a", &data, limits).is_ok());
+}
+
+#[test]
 fn what_a_format_lacks_is_refused() {
     let refused = |f, c, d| matches!(form(f, c, d).check(), Err(Failure::Usage(_)));
     assert!(refused(Format::Jpeg, Channels::Rgba, Depth::Eight));
