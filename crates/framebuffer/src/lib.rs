@@ -55,8 +55,10 @@
 extern crate alloc;
 
 mod encode;
+mod level;
 mod palette;
 mod samples;
+mod stretch;
 mod tile;
 mod visibility;
 
