@@ -9,46 +9,36 @@ const TOGETHER: usize = 4;
 /// Fewer pixels than this take less time than it takes to choose the best instructions.
 const SHORT: usize = 12;
 
+/// Runs a kernel on so many pixels by the best instructions, if they are worth it.
+macro_rules! by_best {
+    ($best:expr, $len:expr, $kernel:expr) => {{
+        let (best, len): (Best, usize) = ($best, $len);
+        if len < SHORT {
+            return $kernel;
+        }
+        #[cfg(feature = "std")]
+        fearless_simd::dispatch!(best.0, _simd => $kernel);
+        #[cfg(not(feature = "std"))]
+        {
+            let Best = best;
+            $kernel
+        }
+    }};
+}
+
 /// Makes all of a stretch `color`.
 pub(crate) fn fill(best: Best, below: &mut [Premul], color: Premul) {
-    if below.len() < SHORT {
-        return fill_by(below, color);
-    }
-    #[cfg(feature = "std")]
-    fearless_simd::dispatch!(best.0, _simd => fill_by(below, color));
-    #[cfg(not(feature = "std"))]
-    {
-        let Best = best;
-        fill_by(below, color);
-    }
+    by_best!(best, below.len(), fill_by(below, color))
 }
 
 /// One colour over many.
 pub(crate) fn blend(best: Best, below: &mut [Premul], color: Premul) {
-    if below.len() < SHORT {
-        return blend_by(below, color);
-    }
-    #[cfg(feature = "std")]
-    fearless_simd::dispatch!(best.0, _simd => blend_by(below, color));
-    #[cfg(not(feature = "std"))]
-    {
-        let Best = best;
-        blend_by(below, color);
-    }
+    by_best!(best, below.len(), blend_by(below, color))
 }
 
 /// Parts of one colour over as many pixels.
 pub(crate) fn blend_parts(best: Best, below: &mut [Premul], parts: &[f32], color: Premul) {
-    if below.len() < SHORT {
-        return blend_parts_by(below, parts, color);
-    }
-    #[cfg(feature = "std")]
-    fearless_simd::dispatch!(best.0, _simd => blend_parts_by(below, parts, color));
-    #[cfg(not(feature = "std"))]
-    {
-        let Best = best;
-        blend_parts_by(below, parts, color);
-    }
+    by_best!(best, below.len(), blend_parts_by(below, parts, color))
 }
 
 #[inline(always)]

@@ -1,4 +1,5 @@
 use crate::Palette;
+#[cfg(feature = "std")]
 use crate::level::Best;
 use crate::samples::{mean, mean_of, mean4};
 use alloc::vec::Vec;

@@ -57,7 +57,8 @@ impl Source {
         let mut at = top;
         let mut start = height(top);
         let mut from = self.slope.along(start);
-        for row in &mut rows[((top >> 8) - y0) as usize..((bottom - 1 >> 8) - y0) as usize + 1] {
+        let [first, last] = [top, bottom - 1].map(|y| ((y >> 8) - y0) as usize);
+        for row in &mut rows[first..=last] {
             let row_top = at & -256;
             let next = bottom.min(row_top + 256);
             let end = height(next);
