@@ -7,9 +7,46 @@ use scumble_pixel::{Premul, WorkingSpace};
 /// bytes.
 pub fn encode_row(pixels: &[Premul], space: WorkingSpace, out: &mut [[u8; 4]]) {
     #[cfg(feature = "std")]
-    fearless_simd::dispatch!(fearless_simd::Level::new(), _simd => space.export_row(pixels, out));
+    fearless_simd::dispatch!(fearless_simd::Level::new(), _simd => encode_by(pixels, space, out));
     #[cfg(not(feature = "std"))]
-    space.export_row(pixels, out);
+    encode_by(pixels, space, out);
+}
+
+/// Pixels that are looked at together.
+const TOGETHER: usize = 16;
+
+/// Where colours repeat, as they do in most of a drawing, comparing them is several times as quick as
+/// encoding them.
+#[inline(always)]
+fn encode_by(pixels: &[Premul], space: WorkingSpace, out: &mut [[u8; 4]]) {
+    let len = pixels.len().min(out.len());
+    let (pixels, rest) = pixels[..len].as_chunks::<TOGETHER>();
+    let (out, rest_out) = out[..len].as_chunks_mut::<TOGETHER>();
+    let mut last = None;
+    for (pixels, out) in pixels.iter().zip(out) {
+        match last {
+            Some((color, code)) if are_all(pixels, color) => *out = [code; TOGETHER],
+            _ => {
+                space.export_row(pixels, out);
+                last = Some((pixels[TOGETHER - 1], out[TOGETHER - 1]));
+            }
+        }
+    }
+    space.export_row(rest, rest_out);
+}
+
+/// Whether all pixels are of one colour, to the bit. (Looks at all of them, which fills vectors.)
+#[inline(always)]
+fn are_all(pixels: &[Premul; TOGETHER], color: Premul) -> bool {
+    let [r, g, b, a] = color.0.map(f32::to_bits);
+    let four = [r, g, b, a, r, g, b, a, r, g, b, a, r, g, b, a];
+    let mut differ = [0; 16];
+    for pixels in pixels.as_chunks::<4>().0 {
+        for (i, (differ, bits)) in differ.iter_mut().zip(four).enumerate() {
+            *differ |= pixels[i / 4].0[i % 4].to_bits() ^ bits;
+        }
+    }
+    differ == [0; 16]
 }
 
 /// Finished pixels as straight 16-bit sRGB, every component rounded to nearest; the shorter slice
@@ -107,6 +144,26 @@ mod tests {
                     sum += out.iter().map(|c| f64::from(c[0])).sum::<f64>();
                 }
                 prop_assert!((sum / 64.0 - exact).abs() <= 1.0 / 128.0 + 1e-9);
+            }
+        }
+
+        #[test]
+        fn neighbours_do_not_matter(
+            stretches in prop::collection::vec((any::<[u8; 3]>(), 0.0_f32..=1.0, 1..70_usize), 1..6),
+            room in 0..200_usize,
+        ) {
+            for space in SPACES {
+                let color = |&(rgb, alpha, len): &([u8; 3], f32, usize)| {
+                    let [r, g, b] = rgb;
+                    vec![space.import([r, g, b, 255]).scaled(alpha); len]
+                };
+                let pixels: Vec<Premul> = stretches.iter().flat_map(color).collect();
+                let mut codes = vec![[1; 4]; room];
+                encode_row(&pixels, space, &mut codes);
+                for (code, pixel) in codes.iter().zip(&pixels) {
+                    prop_assert_eq!(*code, space.export(*pixel));
+                }
+                prop_assert!(codes.iter().skip(pixels.len()).all(|&code| code == [1; 4]));
             }
         }
 

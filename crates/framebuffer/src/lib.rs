@@ -58,8 +58,10 @@ extern crate alloc;
 
 mod encode;
 mod exposure;
+mod level;
 mod palette;
 mod samples;
+mod stretch;
 mod tile;
 mod visibility;
 

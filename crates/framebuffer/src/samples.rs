@@ -50,6 +50,11 @@ impl SampleStore {
         self.free.clear();
     }
 
+    /// Whether a slot was taken since it was reset.
+    pub(crate) fn is_used(&self) -> bool {
+        !self.touched.is_empty()
+    }
+
     /// A slot with every sample equal to `color`.
     pub(crate) fn take(&mut self, color: Premul) -> Slot {
         if let Some(slot) = self.free.pop() {

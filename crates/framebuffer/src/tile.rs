@@ -3,7 +3,9 @@ use core::ops::Range;
 
 use scumble_pixel::Premul;
 
+use crate::level::Best;
 use crate::samples::{SampleStore, Slot, mean, same_bits};
+use crate::stretch;
 
 /// The samples of one tile of the frame, reusable: see the [crate](crate) for the conventions.
 ///
@@ -20,6 +22,7 @@ pub struct Tile {
     colors: Vec<Premul>,
     slots: Vec<Slot>,
     store: SampleStore,
+    level: Best,
 }
 
 impl Tile {
@@ -42,9 +45,11 @@ impl Tile {
         self.samples = samples.clamp(1, 64);
         self.full = u64::MAX >> (64 - self.samples);
         let len = self.width * self.height;
-        self.colors.clear();
         self.colors.resize(len, background);
-        self.slots.clear();
+        stretch::fill(self.level, &mut self.colors, background);
+        if self.store.is_used() {
+            self.slots.fill(Slot::UNIFORM);
+        }
         self.slots.resize(len, Slot::UNIFORM);
         self.store.reset(self.samples as usize, len);
     }
@@ -93,7 +98,7 @@ impl Tile {
         for row in y..bottom {
             let span = self.span(x, row, w as usize);
             if self.is_uniform(span.clone()) {
-                blend_all(&mut self.colors[span], color);
+                stretch::blend(self.level, &mut self.colors[span], color);
             } else {
                 span.for_each(|i| self.blend_pixel(i, color));
             }
@@ -121,9 +126,7 @@ impl Tile {
     pub fn blend_areas(&mut self, x: u32, y: u32, areas: &[f32], color: Premul) {
         let span = self.span(x, y, areas.len());
         if self.is_uniform(span.clone()) {
-            for (below, &area) in self.colors[span].iter_mut().zip(areas) {
-                *below = color.scaled(area).over(*below);
-            }
+            stretch::blend_parts(self.level, &mut self.colors[span], areas, color);
         } else {
             for (i, &area) in span.zip(areas) {
                 self.blend_pixel(i, color.scaled(area));
@@ -181,6 +184,14 @@ impl Tile {
                 *pixel = self.resolve(i);
             }
         }
+    }
+
+    /// The pixels of a row as [`resolve_row`](Self::resolve_row) finds them, if there is nothing to find:
+    /// none of them is split.
+    #[must_use]
+    pub fn uniform_row(&self, y: u32) -> Option<&[Premul]> {
+        let span = self.span(0, y, self.width);
+        self.is_uniform(span.clone()).then(|| &self.colors[span])
     }
 
     /// How many pixels are split into samples now: a measure of memory and of work.
@@ -242,7 +253,9 @@ impl Tile {
         } else if color.alpha() == 1.0 {
             self.unite(i, color);
         } else {
-            blend_all(self.store.get_mut(slot), color);
+            for sample in self.store.get_mut(slot) {
+                blend(sample, color);
+            }
         }
     }
 
@@ -285,17 +298,6 @@ impl Tile {
 #[inline]
 fn blend(below: &mut Premul, color: Premul) {
     *below = if color.alpha() == 1.0 { color } else { color.over(*below) };
-}
-
-/// [`blend`] of one colour over many.
-fn blend_all(below: &mut [Premul], color: Premul) {
-    if color.alpha() == 1.0 {
-        below.fill(color);
-    } else {
-        for pixel in below {
-            *pixel = color.over(*pixel);
-        }
-    }
 }
 
 /// The indices of the set bits, lowest first.

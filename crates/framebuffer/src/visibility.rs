@@ -1,4 +1,6 @@
 use crate::Palette;
+#[cfg(feature = "std")]
+use crate::level::Best;
 use crate::samples::{mean, mean_of, mean4};
 use alloc::vec::Vec;
 use scumble_pixel::Premul;
@@ -40,18 +42,6 @@ pub struct Visibility {
     groups: usize,
     #[cfg(feature = "std")]
     level: Best,
-}
-
-/// The best instructions that the machine has.
-#[cfg(feature = "std")]
-#[derive(Debug, Clone, Copy)]
-struct Best(fearless_simd::Level);
-
-#[cfg(feature = "std")]
-impl Default for Best {
-    fn default() -> Self {
-        Self(fearless_simd::Level::new())
-    }
 }
 
 /// The colours of keys in a row, for [`Visibility::shade_pixels`].

@@ -5,10 +5,10 @@
 //! others, so the curve is cut in halves in homogeneous space, and a piece is straight enough when
 //! its *projected* control points lie so close to its projected chord that the curve, which is a
 //! mean of them with positive weights, lies within the tolerance. No estimate of the curvature is
-//! needed. Without perspective there is a good one, and the curve is cut into equal steps of its
-//! parameter, as many as it takes. Only + − × ÷ √ and comparisons are used, so that the same path
+//! needed. Without perspective there is a good one ([`crate::chords`]). Only + − × ÷ √ and comparisons are used, so that the same path
 //! gives the same points everywhere, and the reversed path the same in reverse.
 
+use crate::chords::push_chords;
 use crate::path::Cursor;
 use crate::{Contours, DVec2, DVec3, Homography, Path, PathElement, clip_polygon};
 use alloc::vec::Vec;
@@ -72,10 +72,7 @@ impl<'a> Flattener<'a> {
         let tolerance = tolerance_px.max(LEAST_TOLERANCE_PX);
         Self {
             transform,
-            flatness: Flatness {
-                tolerance_squared: tolerance * tolerance,
-                near_w: transform.near_w(),
-            },
+            flatness: Flatness { tolerance, near_w: transform.near_w() },
             contour: Vec::new(),
             clipped: Vec::new(),
             out: Contours::new(),
@@ -113,8 +110,14 @@ impl<'a> Flattener<'a> {
         let (flatness, contour) = (self.flatness, &mut self.contour);
         let room = Path::MAX_POINTS.saturating_sub(contour.len() + self.out.points.len());
         let limit = contour.len() + room;
-        if let Some(pieces) = flatness.pieces(curve) {
-            return step_evenly(curve, pieces.min(room.max(1) as u32), contour);
+        let w = curve[0].z;
+        if w >= flatness.near_w && curve.iter().all(|p| p.z == w) {
+            if is_far(&curve.map(|p| p.truncate() / w)) {
+                return contour.push(curve[N - 1]);
+            }
+            let (curve, tolerance) = (curve.map(DVec3::truncate), flatness.tolerance * w);
+            let mut push = |p: DVec2| contour.push(p.extend(w));
+            return push_chords(&curve, tolerance, room.max(1) as u32, &mut push);
         }
         subdivide(curve, 0, &|c| flatness.allows(c), limit, contour);
     }
@@ -138,7 +141,7 @@ impl<'a> Flattener<'a> {
 /// When a chord can stand for a curve.
 #[derive(Debug, Clone, Copy)]
 struct Flatness {
-    tolerance_squared: f64,
+    tolerance: f64,
     near_w: f64,
 }
 
@@ -157,56 +160,9 @@ impl Flatness {
         let (from, to) = (points[0], points[N - 1]);
         let share = inner_share::<N>() * weight_ratio(curve);
         let share = share / (share + 1.0 - inner_share::<N>());
-        let limit = self.tolerance_squared / (share * share);
-        points[1..N - 1].iter().all(|&p| distance_squared(p, from, to) <= limit)
+        let reach = self.tolerance / share;
+        points[1..N - 1].iter().all(|&p| distance_squared(p, from, to) <= reach * reach)
     }
-}
-
-impl Flatness {
-    /// Into how many pieces of equal parameter range a curve without perspective is cut, so that
-    /// their chords can stand for them; none for a curve in perspective.
-    ///
-    /// A chord over a range h of the parameter leaves the curve by at most h²/8 times its largest
-    /// second derivative, which is d(d − 1) times the largest second difference of the control
-    /// points, d being its degree (Wang, Chen, "Computing the subdivision number of Bézier curves").
-    fn pieces<const N: usize>(&self, curve: &[DVec3; N]) -> Option<u32> {
-        let w = curve[0].z;
-        if w < self.near_w || curve.iter().any(|p| p.z != w) {
-            return None;
-        }
-        let points = curve.map(|p| p.truncate() / w);
-        let bend = points.windows(3).map(|p| ((p[0] + p[2]) - p[1] * 2.0).length_squared());
-        let bend = bend.fold(0.0, f64::max);
-        let order = ((N - 1) * (N - 2)) as f64 / 8.0;
-        let squared = order * crate::math::sqrt(bend / self.tolerance_squared);
-        // Numbers beyond all bounds end here as well.
-        if is_far(&points) || !squared.is_finite() {
-            return Some(1);
-        }
-        let most = f64::from(1u32 << Path::MAX_DEPTH);
-        let count = crate::math::sqrt(squared).min(most);
-        let whole = count as u32;
-        Some((whole + u32::from(f64::from(whole) < count)).max(1))
-    }
-}
-
-/// Pushes the points of a curve after its first, at equal steps of the parameter. Those of the
-/// reversed curve are the same to the bit: all weights are whole numbers.
-fn step_evenly<const N: usize>(curve: &[DVec3; N], pieces: u32, out: &mut Vec<DVec3>) {
-    let n = f64::from(pieces);
-    let share = if N == 3 { 1.0 / (n * n) } else { 1.0 / (n * n * n) };
-    for i in 1..pieces {
-        let (t, s) = (f64::from(i), f64::from(pieces - i));
-        let sum = if N == 3 {
-            (curve[0] * (s * s) + curve[2] * (t * t)) + curve[1] * (2.0 * s * t)
-        } else {
-            (curve[0] * (s * s * s) + curve[N - 1] * (t * t * t))
-                + (curve[1] * (s * t * s) + curve[2] * (s * t * t)) * 3.0
-        };
-        let p = sum * share;
-        out.push(DVec3::new(p.x, p.y, curve[0].z));
-    }
-    out.push(curve[N - 1]);
 }
 
 /// The largest sum that the weights of a Bézier curve's inner control points reach: ½ of a
@@ -247,7 +203,7 @@ pub(crate) fn subdivide<P: Vector, const N: usize>(
 }
 
 /// De Casteljau at ½.
-fn halve<P: Vector, const N: usize>(curve: &[P; N]) -> ([P; N], [P; N]) {
+pub(crate) fn halve<P: Vector, const N: usize>(curve: &[P; N]) -> ([P; N], [P; N]) {
     let (mut first, mut second) = (*curve, *curve);
     for (round, end) in first.iter_mut().enumerate() {
         *end = second[0];

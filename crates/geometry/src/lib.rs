@@ -57,6 +57,8 @@
 extern crate alloc;
 
 mod affine;
+#[cfg(feature = "paths")]
+mod chords;
 mod clip;
 mod contours;
 mod error;

@@ -24,8 +24,9 @@ pub(crate) struct Surface {
     pub(crate) opaque: bool,
 }
 
-/// How far, in pixels, a chord may lie from its curve: a sixty-fourth is an error of about one
-/// grey level in 255 on a pixel that the curve crosses. Halving it costs 1.4 times the points.
+/// How far, in pixels, a chord may lie from its curve: a sixty-fourth is an error of four grey levels
+/// in 255 at the worst, and of about one on most pixels that the curve crosses. Halving it costs 1.4
+/// times the points.
 const FLATNESS: f64 = 1.0 / 64.0;
 
 /// What a point of an outline takes, at the most, with the edge that it begins.

@@ -59,14 +59,15 @@ impl Wanted<'_> {
     /// Finds the strip, if `spare` bytes are enough for it.
     pub(crate) fn find(&mut self, grid: &TileGrid, spare: &AtomicU64, scratch: &mut Scratch) {
         let (width, height) = (u64::from(self.clip.width()), u64::from(self.clip.height()));
-        let most = width.saturating_mul(height).saturating_mul(AreaStrip::PIXEL_BYTES as u64);
+        let mut strip = AreaStrip::new(grid.area().x0, grid.side(), grid.columns());
+        let pixels = width.saturating_mul(height).saturating_mul(AreaStrip::PIXEL_BYTES as u64);
+        let most = pixels.saturating_add(strip.bytes());
         let take = |left: u64| left.checked_sub(most);
         if most > MAX_BYTES
             || spare.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take).is_err()
         {
             return;
         }
-        let mut strip = AreaStrip::new(grid.area().x0, grid.side(), grid.columns());
         self.shape.rasterize_area(self.clip, scratch, &mut strip);
         spare.fetch_add(most.saturating_sub(strip.bytes()), Ordering::Relaxed);
         self.strip = Some(strip);

@@ -54,6 +54,9 @@ impl Job<'_> {
         (list, strips): (&[u32], &[Wanted<'_>]),
         rows: &mut [&mut [[u8; 4]]],
     ) {
+        if list.is_empty() {
+            return self.blank(rows);
+        }
         let here = |(&i, (draw, bounds)): (&u32, (_, IntRect))| {
             let found = strips.binary_search_by_key(&i, |wanted| wanted.draw).ok();
             let strip = found.and_then(|at| strips[at].strip.as_ref());
@@ -72,6 +75,12 @@ impl Job<'_> {
         let Replay { work, locals, .. } = replay;
         work.lists.push(all);
         self.finish(work, rect, effect, &locals, rows);
+    }
+
+    /// Renders pixels that nothing touches.
+    fn blank(&self, rows: &mut [&mut [[u8; 4]]]) {
+        let code = self.settings.space.export(self.background);
+        rows.iter_mut().for_each(|row| row.fill(code));
     }
 
     /// Makes pixels of what has been drawn.
@@ -109,7 +118,13 @@ impl Job<'_> {
                         }
                     }
                 }),
-                Effect::Blends => stack[0].resolve_row(y, colors),
+                Effect::Blends => {
+                    if let Some(pixels) = stack[0].uniform_row(y) {
+                        encode_row(pixels, space, row);
+                        continue;
+                    }
+                    stack[0].resolve_row(y, colors);
+                }
             }
             encode_row(colors, space, row);
         }
@@ -147,7 +162,8 @@ impl Local<'_> {
     fn touches(&self, part: IntRect) -> bool {
         let form = &self.draw.form;
         !self.bounds.intersect(&part).is_empty()
-            && !matches!(form, Form::Shape(shape) if shape.covers(part) == Cover::None)
+            && (self.strip.is_some()
+                || !matches!(form, Form::Shape(shape) if shape.covers(part) == Cover::None))
     }
 
     /// Whether it hides whatever lies under it in the whole of a part.
@@ -155,7 +171,11 @@ impl Local<'_> {
         self.bounds.intersect(&part) == part
             && self.draw.layer == 0
             && self.draw.paint.is_opaque()
-            && matches!(&self.draw.form, Form::Shape(shape) if shape.covers(part) == Cover::Full)
+            && match (&self.draw.form, self.strip) {
+                (_, Some(strip)) => strip.fills(part),
+                (Form::Shape(shape), None) => shape.covers(part) == Cover::Full,
+                _ => false,
+            }
     }
 
     /// Whether it is opaque and may touch more than half of a part.

@@ -123,4 +123,20 @@ proptest! {
         });
         prop_assert_eq!(found, columns.map(|c| reach.part(c)));
     }
+
+    #[test]
+    fn few_pixels_have_a_short_way(
+        (x0, y0, run, rise) in (-4 * 256..40 * 256i32, -600..256i32, -700..700i32, 1..600i32),
+    ) {
+        prop_assume!(y0 + rise > 0);
+        let reach = reach([x0, y0, x0 + run, y0 + rise]);
+        let (first, last) = touched(reach.extent(), -100, 100);
+        let x = f64::from(first);
+        if first == last {
+            prop_assert_eq!(reach.right_of_one(x), reach.right(x));
+        }
+        if first + 1 >= last {
+            prop_assert_eq!(reach.right_of_two(x), [reach.right(x), reach.right(x + 1.0)]);
+        }
+    }
 }

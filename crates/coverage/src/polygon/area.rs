@@ -10,9 +10,9 @@
 //! the bit what would come of untying it.
 
 use super::calm::is_calm;
-use super::gather::{Gathered, ROWS, Source};
-use super::strips::{AreaEdge, Place, Strips};
-use super::sums::{RowSums, Stretches};
+use super::gather::{Gathered, ROWS};
+use super::strips::{AreaEdge, Place, Strips, sort};
+use super::sums::{Met, RowSums, Stretches};
 use super::{Polygon, PolygonScratch, steps::Steps};
 use crate::AreaSink;
 use crate::area::{CHUNK, ROW_CELLS};
@@ -30,8 +30,8 @@ struct Clipped<'a> {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Knots {
     strips: Strips,
-    /// The edges of the row by their first chunk.
-    order: Vec<(i32, u32)>,
+    /// The edges of the row by their first chunk, which is in the upper half.
+    order: Vec<u64>,
     /// Those that touch the current chunk (places in [`RowSums::met`]).
     here: Vec<u32>,
     edges: Vec<AreaEdge>,
@@ -68,21 +68,26 @@ impl Clipped<'_> {
     ) {
         let rect = self.rect;
         let columns = (rect.x0 & -CHUNK, (rect.x1 + CHUNK - 1) & -CHUNK);
-        scratch.sums.start(columns.0, columns.1);
+        scratch.sums.resize_with(ROWS, RowSums::default);
+        for sums in &mut scratch.sums {
+            sums.start(columns.0, columns.1);
+        }
         // Rows that are wholly inside are handed on together.
         let mut inside_from = None;
         let mut y = rect.y0;
         while y < rect.y1 {
             // The bands of the index begin at multiples of their height.
             let end = ((y | (ROWS as i32 - 1)) + 1).min(rect.y1);
-            scratch.gathered.start(self.polygon, columns, (y, end));
+            let rows = &mut scratch.sums[..(end - y) as usize];
+            rows.iter_mut().for_each(RowSums::clear);
+            scratch.gathered.start(simd, self.polygon, columns, (y, rows));
             let mut left = 0;
             for row in 0..(end - y) as usize {
                 let steps = &mut scratch.left;
                 steps.reset(left);
                 scratch.gathered.left_side(row, steps);
-                left = steps.top + steps.iter().map(|s| s.1).sum::<i32>();
-                let calm = scratch.gathered.rows[row].is_empty() && steps.is_constant();
+                left = steps.bottom();
+                let calm = scratch.sums[row].is_empty() && steps.is_constant();
                 let inside = calm && self.polygon.is_inside(left);
                 let y = y + row as i32;
                 if inside {
@@ -111,8 +116,9 @@ impl Clipped<'_> {
         scratch: &mut PolygonScratch,
         sink: &mut impl AreaSink,
     ) {
-        let PolygonScratch { gathered, left, sums, knots, .. } = scratch;
-        sums.add(simd, y, (&gathered.edges, &gathered.rows[row]), left);
+        let PolygonScratch { gathered, left, sums, knots, areas, .. } = scratch;
+        let sums = &mut sums[row];
+        sums.pass(left);
         for level in self.polygon.levels_between(y * 256, y * 256 + 256) {
             sums.add_level(level.left >> 8, level.right >> 8);
         }
@@ -120,7 +126,7 @@ impl Clipped<'_> {
         if sums.find_knots::<PLAIN>(left) {
             knots.untie(simd, self.polygon, y, gathered, (sums, left));
         }
-        sums.sweep(simd, self.polygon, base, &mut Row { y, rect: self.rect, sink });
+        sums.sweep(simd, self.polygon, base, (areas, &mut Row { y, rect: self.rect, sink }));
     }
 }
 
@@ -137,55 +143,73 @@ impl Knots {
     ) {
         self.order.clear();
         // By chunks that do not begin at the clip, so that the order is the same in every clip.
-        self.order.extend((0..).zip(&sums.met).map(|(i, met)| (met.first.div_euclid(CHUNK), i)));
-        self.order.sort_unstable();
+        let key = |(i, met): (u64, &Met)| chunk_key(met.first) << 32 | i;
+        self.order.extend((0..).zip(&sums.met).map(key));
+        sort(&mut self.order, Ord::cmp);
         self.here.clear();
         let mut taken = 0;
-        let mut next = sums.next_touched(0);
+        let mut next = sums.next_knot(0);
         while let Some(chunk) = next {
             let x = sums.first_pixel(chunk);
-            let beyond = x.div_euclid(CHUNK) + 1;
-            while let Some(&(_, i)) = self.order.get(taken).filter(|(first, _)| *first < beyond) {
-                self.here.push(i);
+            // What lies left of the chunk is left behind.
+            let mut kept = 0;
+            for at in 0..self.here.len() {
+                let i = self.here[at];
+                if self.stays(i, x, y, gathered, (sums, left)) {
+                    self.here[kept] = i;
+                    kept += 1;
+                }
+            }
+            self.here.truncate(kept);
+            while let Some(&key) = self.order.get(taken)
+                && key >> 32 <= chunk_key(x)
+            {
+                let i = key as u32;
+                if self.stays(i, x, y, gathered, (sums, left)) {
+                    self.here.push(i);
+                }
                 taken += 1;
             }
-            if sums.is_knot(chunk) {
-                self.edges.clear();
-                for &i in &self.here {
-                    let source = &gathered.edges[sums.met[i as usize].edge as usize];
-                    self.edges.push(source.area_edge(y));
-                }
-                if is_calm(y, left, &self.edges) {
-                    sums.calm(chunk);
-                } else {
-                    let place = Place { polygon, x, y, left };
-                    sums.untie(self.strips.areas(simd, place, &self.edges));
-                }
+            self.edges.clear();
+            for &i in &self.here {
+                let source = &gathered.edges[sums.met[i as usize].edge as usize];
+                self.edges.push(source.area_edge(y));
             }
-            self.pass(y, beyond * CHUNK, gathered, sums, left);
-            next = sums.next_touched(chunk + 1);
+            if is_calm(y, left, &self.edges) {
+                sums.calm(chunk);
+            } else {
+                let place = Place { polygon, x, y, left };
+                sums.untie(self.strips.areas(simd, place, &self.edges));
+            }
+            next = sums.next_knot(chunk + 1);
         }
     }
 
-    /// Leaves the edges behind that do not touch the pixels from `x` on.
+    /// Whether an edge reaches the pixels from `x` on. One that does not is added to what is left of them.
     #[inline(always)]
-    fn pass(&mut self, y: i32, x: i32, gathered: &Gathered, sums: &RowSums, left: &mut Steps) {
-        let mut kept = 0;
-        for at in 0..self.here.len() {
-            let i = self.here[at];
-            let met = &sums.met[i as usize];
-            if met.last >= x {
-                self.here[kept] = i;
-                kept += 1;
-            } else {
-                let edge: &Source = &gathered.edges[met.edge as usize];
-                let (from, to) = edge.within(y);
-                left.add(from, edge.winding);
-                left.add(to, -edge.winding);
-            }
+    fn stays(
+        &self,
+        i: u32,
+        x: i32,
+        y: i32,
+        gathered: &Gathered,
+        (sums, left): (&RowSums, &mut Steps),
+    ) -> bool {
+        let met = &sums.met[i as usize];
+        if met.last >= x {
+            return true;
         }
-        self.here.truncate(kept);
+        let edge = &gathered.edges[met.edge as usize];
+        let (from, to) = edge.within(y);
+        left.add(from, edge.winding);
+        left.add(to, -edge.winding);
+        false
     }
+}
+
+/// The chunk of a pixel, in 32 bits that rise with it.
+fn chunk_key(x: i32) -> u64 {
+    u64::from((x.div_euclid(CHUNK) as u32) ^ 1 << 31)
 }
 
 /// A row of a clip, on its way to a sink.

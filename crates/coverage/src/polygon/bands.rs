@@ -31,6 +31,9 @@ pub(super) struct Bands {
 /// for each tile than to sort them.
 const NARROW: u32 = 512;
 
+/// As many edges of a band are looked at for each tile rather than sorted.
+const CROWD: usize = 256;
+
 /// Edges of a band between two marks, at least; more where the steps to keep are more.
 const STRIDE: usize = 32;
 
@@ -59,7 +62,7 @@ struct Mark {
 impl Columns {
     /// Sorts the edges of each band.
     fn new(shift: u32, first: i32, starts: &[u32], edges: &mut [PolygonEdge]) -> Option<Self> {
-        let crowded = starts.windows(2).any(|s| (s[1] - s[0]) as usize > 2 * STRIDE);
+        let crowded = starts.windows(2).any(|s| (s[1] - s[0]) as usize > CROWD);
         if shift != LEAST_SHIFT || !crowded {
             return None;
         }
@@ -161,46 +164,25 @@ impl Bands {
         Self { shift, first, starts, edges, columns }
     }
 
-    /// Hands on each edge that meets the heights `top..bottom` and does not lie wholly left of
-    /// `left` or right of `right`, in no order. Those left of `left` are added to `side`, which
-    /// begins at `top`. The heights lie within a band of the least height.
-    #[inline(always)]
-    pub(super) fn each_between(
+    /// Edges among which are all that meet the heights from `top` on, to the end of the band, and do not
+    /// lie wholly left of `left` or right of `right`; and the changes of the winding number (height,
+    /// change) of those that do lie left of `left` and are not among them.
+    pub(super) fn between(
         &self,
-        (top, bottom): (i32, i32),
+        top: i32,
         (left, right): (i32, i32),
-        side: &mut LeftSide,
-        mut meet: impl FnMut(&PolygonEdge),
-    ) {
-        let mut look = |e: &PolygonEdge| {
-            if e.y0 >= bottom || e.y1 <= top {
-                return;
-            }
-            if e.right() < left {
-                side.add_edge(e, top, bottom);
-            } else if e.left() <= right {
-                meet(e);
-            }
-        };
+    ) -> (&[PolygonEdge], &[(i32, i32)]) {
         let b = ((top >> (8 + self.shift)) - self.first) as usize;
         let Some(columns) = &self.columns else {
-            for e in &self.edges[self.starts[b] as usize..self.starts[b + 1] as usize] {
-                look(e);
-            }
-            return;
+            return (&self.edges[self.starts[b] as usize..self.starts[b + 1] as usize], &[]);
         };
         let (from, end) = (columns.starts[b] as usize, columns.starts[b + 1] as usize);
         let passed = |mark: &Mark| self.edges[mark.edge as usize - 1].right() < left;
         let from = from + columns.marks[from + 1..end].partition_point(passed);
-        let marks = &columns.marks[from..=end];
-        for pair in marks.windows(2).take_while(|pair| pair[0].left <= right) {
-            for e in &self.edges[pair[0].edge as usize..pair[1].edge as usize] {
-                look(e);
-            }
-        }
-        for &(height, change) in &columns.steps[marks[0].step as usize..marks[1].step as usize] {
-            side.add(height.clamp(top, bottom) - top, change);
-        }
+        let to = from + columns.marks[from..end].partition_point(|mark| mark.left <= right);
+        let [from, next, to] = [from, from + 1, to].map(|i| &columns.marks[i]);
+        let edges = &self.edges[from.edge as usize..to.edge as usize];
+        (edges, &columns.steps[from.step as usize..next.step as usize])
     }
 
     /// Hands on each edge that meets the heights `top..bottom` (1/256 pixel) once, in no order,

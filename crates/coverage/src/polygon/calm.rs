@@ -30,12 +30,24 @@ pub(super) fn is_calm(y: i32, left: &Steps, edges: &[AreaEdge]) -> bool {
     if edges.len() > MOST {
         return false;
     }
+    if left.is_constant() {
+        match edges {
+            [] | [_] => return true,
+            // The two sides of something narrow.
+            [a, b] if a.winding == -b.winding && (a.from, a.to) == (b.from, b.to) => {
+                return keep_order(y, a, b);
+            }
+            _ => {}
+        }
+    }
     // Where the edges cross the top of the row, and how far they run in 1/256 of it.
     let mut lines = [(0.0, 0.0); MOST];
-    let mut events = left.marks();
     for (line, e) in lines.iter_mut().zip(edges) {
         let top = e.slope.at(f64::from(y));
         *line = (top, e.slope.run * e.slope.sign * (1.0 / 256.0));
+    }
+    let mut events = left.marks();
+    for e in edges {
         for height in [e.from, e.to & 255] {
             events[height as usize / 64] |= 1 << (height % 64);
         }
@@ -87,6 +99,17 @@ pub(super) fn is_calm(y: i32, left: &Steps, edges: &[AreaEdge]) -> bool {
         winding += left.change(to);
         from = to;
     }
+}
+
+/// Whether two edges between the same heights do not cross, each winding once.
+#[inline(always)]
+fn keep_order(y: i32, a: &AreaEdge, b: &AreaEdge) -> bool {
+    let apart = |height: i32| {
+        let y = f64::from(y) + f64::from(height) * (1.0 / 256.0);
+        a.slope.at(y) - b.slope.at(y)
+    };
+    let (top, bottom) = (apart(a.from), apart(a.to));
+    a.winding.abs() == 1 && (top.max(bottom) <= TOUCHING || top.min(bottom) >= -TOUCHING)
 }
 
 #[inline(always)]

@@ -3,10 +3,12 @@
 
 use super::steps::Steps;
 use super::strips::AreaEdge;
+use super::sums::RowSums;
 use super::{Polygon, PolygonEdge};
 use crate::area::{Reach, Slope};
 use alloc::{vec, vec::Vec};
 use core::ops::Range;
+use fearless_simd::Simd;
 
 /// Rows that are looked at together: as many as the lowest band of the index has.
 pub(super) const ROWS: usize = 1 << super::bands::LEAST_SHIFT;
@@ -38,18 +40,34 @@ impl Source {
         (self.top.max(top) - top, self.bottom.min(top + 256) - top)
     }
 
-    /// What there is of it in row `y` between two heights.
-    #[inline(always)]
-    pub(super) fn reach(&self, y: i32, (from, to): (i32, i32)) -> Reach {
-        let height = |within: i32| f64::from(y) + f64::from(within) * (1.0 / 256.0);
-        self.slope.reach(height(from), height(to))
-    }
-
     /// What there is of it in row `y`.
     #[inline(always)]
     pub(super) fn area_edge(&self, y: i32) -> AreaEdge {
         let (from, to) = self.within(y);
         AreaEdge { slope: self.slope, winding: self.winding, from, to }
+    }
+
+    /// Adds it to the sums of the rows that it meets, of which the first is row `y0`. `place` is its
+    /// own among the gathered edges.
+    #[inline(always)]
+    fn add<S: Simd>(&self, simd: S, place: u32, y0: i32, rows: &mut [RowSums]) {
+        let top = self.top.max(y0 * 256);
+        let bottom = self.bottom.min((y0 + rows.len() as i32) * 256);
+        let height = |y: i32| f64::from(y) * (1.0 / 256.0);
+        let mut at = top;
+        let mut start = height(top);
+        let mut from = self.slope.along(start);
+        let [first, last] = [top, bottom - 1].map(|y| ((y >> 8) - y0) as usize);
+        for row in &mut rows[first..=last] {
+            let row_top = at & -256;
+            let next = bottom.min(row_top + 256);
+            let end = height(next);
+            let to = self.slope.along(end);
+            let Slope { sign, half_rise, .. } = self.slope;
+            let reach = Reach { sign, from, to, height: end - start, half_rise };
+            row.add(simd, (place, self.winding), (at - row_top, next - row_top), &reach);
+            (at, start, from) = (next, end, to);
+        }
     }
 }
 
@@ -61,8 +79,6 @@ impl Source {
 pub(super) struct Gathered {
     /// Edges within the clip's columns.
     pub(super) edges: Vec<Source>,
-    /// Per row, the places of those that meet it.
-    pub(super) rows: [Vec<u32>; ROWS],
     left: LeftSide,
 }
 
@@ -83,22 +99,36 @@ impl Default for LeftSide {
 }
 
 impl Gathered {
-    /// Collects the edges for a clip between two columns and two rows, no more than [`ROWS`].
+    /// Adds the edges of a polygon within two columns to the sums of some rows, the first of them row
+    /// `y0`, no more than [`ROWS`].
     #[inline(always)]
-    pub(super) fn start(&mut self, polygon: &Polygon, (x0, x1): (i32, i32), (y0, y1): (i32, i32)) {
+    pub(super) fn start<S: Simd>(
+        &mut self,
+        simd: S,
+        polygon: &Polygon,
+        (x0, x1): (i32, i32),
+        (y0, rows): (i32, &mut [RowSums]),
+    ) {
         self.edges.clear();
-        self.rows.iter_mut().for_each(Vec::clear);
         self.left.clear();
-        let (top, bottom) = (y0 * 256, y1 * 256);
-        let columns = (x0 * 256, x1 * 256 - 1);
-        let Self { edges, rows, left } = self;
-        polygon.bands.each_between((top, bottom), columns, left, |e| {
-            let (from, to) = (e.y0.max(top) - top, e.y1.min(bottom) - top);
-            let index = edges.len() as u32;
-            edges.push(Source::from(*e));
-            let range = (from >> 8) as usize..((to - 1) >> 8) as usize + 1;
-            rows[range].iter_mut().for_each(|row| row.push(index));
-        });
+        let (top, bottom) = (y0 * 256, (y0 + rows.len() as i32) * 256);
+        let (left, right) = (x0 * 256, x1 * 256 - 1);
+        let (edges, steps) = polygon.bands.between(top, (left, right));
+        for e in edges {
+            if e.y0 >= bottom || e.y1 <= top {
+                continue;
+            }
+            if e.right() < left {
+                self.left.add_edge(e, top, bottom);
+            } else if e.left() <= right {
+                let source = Source::from(*e);
+                source.add(simd, self.edges.len() as u32, y0, rows);
+                self.edges.push(source);
+            }
+        }
+        for &(height, change) in steps {
+            self.left.add(height.clamp(top, bottom) - top, change);
+        }
     }
 
     /// Adds the changes of the winding number in a row, counted from the first.

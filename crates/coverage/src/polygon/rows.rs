@@ -17,7 +17,10 @@ pub(crate) struct PolygonScratch {
     pub(super) gathered: Gathered,
     /// The winding number at the left side of a row.
     pub(super) left: Steps,
-    pub(super) sums: RowSums,
+    /// The sums of a few rows.
+    pub(super) sums: Vec<RowSums>,
+    /// The areas of a row.
+    pub(super) areas: Vec<f32>,
     pub(super) knots: Knots,
 }
 

@@ -64,8 +64,21 @@ impl Steps {
         })
     }
 
+    /// The winding number at the bottom of the row.
+    #[inline(always)]
+    pub(super) fn bottom(&self) -> i32 {
+        if self.is_constant() {
+            return self.top;
+        }
+        self.top + self.iter().map(|step| step.1).sum::<i32>()
+    }
+
     /// The mean over the row.
+    #[inline(always)]
     pub(super) fn mean(&self) -> f64 {
+        if self.is_constant() {
+            return f64::from(self.top);
+        }
         let sum: i32 = self.iter().map(|(height, change)| (256 - height) * change).sum();
         f64::from(self.top) + f64::from(sum) * (1.0 / 256.0)
     }

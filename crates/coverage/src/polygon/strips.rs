@@ -292,7 +292,7 @@ fn is_crowded(edges: &[AreaEdge], left: &Steps) -> bool {
 
 /// Sorts what is nearly sorted.
 #[inline(always)]
-fn sort<T: Copy>(values: &mut [T], order: impl Fn(&T, &T) -> Ordering) {
+pub(super) fn sort<T: Copy>(values: &mut [T], order: impl Fn(&T, &T) -> Ordering) {
     // Few, or hardly any out of place: insertion. Otherwise not.
     if values.len() > 32 {
         if !values.is_sorted_by(|a, b| order(a, b).is_le()) {

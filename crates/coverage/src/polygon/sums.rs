@@ -11,11 +11,11 @@
 //! so it does at every height in between: the group is plain. The same holds upwards.
 
 use super::Polygon;
-use super::gather::Source;
 use super::steps::Steps;
 use crate::area::{CHUNK, Reach, eight_areas, eight_right, splat};
 use crate::fixed::{floor, low_bits};
 use alloc::vec::Vec;
+use core::ops::Range;
 use fearless_simd::{Simd, f64x8, prelude::*};
 use scumble_geometry::FillRule;
 
@@ -58,67 +58,97 @@ pub(super) struct RowSums {
     knots: Vec<u64>,
     /// The edges that matter.
     pub(super) met: Vec<Met>,
-    out: Vec<f32>,
+    /// What lies left of all pixels: heights in 1/256 pixel from the top of the row, and the winding
+    /// number between them.
+    passed: Vec<(i32, i32, i32)>,
 }
 
 impl RowSums {
-    /// Makes ready for rows of the pixels `x0..x1`; `x0` is a multiple of [`CHUNK`].
+    /// Makes ready for a row of the pixels `x0..x1`; `x0` is a multiple of [`CHUNK`].
     pub(super) fn start(&mut self, x0: i32, x1: i32) {
         let chunks = ((x1 - x0 + CHUNK - 1) / CHUNK) as usize;
         (self.x0, self.chunks) = (x0, chunks);
         // Only growth needs filling.
-        let room = (self.out.len() / 8).max(chunks.next_multiple_of(8));
-        // An edge is added to as many pixels beyond its end as fill eight.
-        self.steps.resize(room * 8 + 16, 0.0);
-        self.heights.resize(room * 8, 0);
-        self.out.resize(room * 8, 0.0);
-        self.touched.resize(room / 8, 0);
-        self.joined.resize(room / 8, 0);
-        self.knots.resize(room.div_ceil(64), 0);
+        if chunks > self.touched.len() * 8 {
+            let room = chunks.next_multiple_of(8);
+            // An edge is added to as many pixels beyond its end as fill eight.
+            self.steps.resize(room * 8 + 16, 0.0);
+            self.heights.resize(room * 8, 0);
+            self.touched.resize(room / 8, 0);
+            self.joined.resize(room / 8, 0);
+            self.knots.resize(room.div_ceil(64), 0);
+        }
     }
 
-    /// Adds the edges of row `y`; what lies left of all pixels, to the winding number there.
+    /// Forgets the edges of the row before.
+    pub(super) fn clear(&mut self) {
+        self.met.clear();
+        self.passed.clear();
+    }
+
+    /// Whether no edge matters to the row.
+    pub(super) fn is_empty(&self) -> bool {
+        self.met.is_empty() && self.passed.is_empty()
+    }
+
+    /// Adds what there is of an edge in the row: its place among all edges and the winding number that it
+    /// adds, between which heights (1/256 pixel from the top of the row) and how it runs there.
     #[inline(always)]
     pub(super) fn add<S: Simd>(
         &mut self,
         simd: S,
-        y: i32,
-        (edges, places): (&[Source], &[u32]),
-        left: &mut Steps,
+        (place, winding): (u32, i32),
+        (from, to): (i32, i32),
+        reach: &Reach,
     ) {
-        self.met.clear();
         let right = self.x0 + self.chunks as i32 * CHUNK;
-        for &place in places {
-            let edge = &edges[place as usize];
-            let (from, to) = edge.within(y);
-            let reach = edge.reach(y, (from, to));
-            let [low, high] = reach.extent();
-            let first = low_bits(floor(low));
-            let last = low_bits(floor(high + A_LITTLE));
-            if first >= right {
-                continue;
-            }
-            if last < self.x0 {
-                left.add(from, edge.winding);
-                left.add(to, -edge.winding);
-                continue;
-            }
-            self.met.push(Met { edge: place, first, last });
-            let (from_x, to_x) = (first.max(self.x0), last.min(right - 1));
-            let (column, end) = ((from_x - self.x0) as usize, (to_x - self.x0) as usize);
-            // What goes on beyond the right side is not known to be plain.
-            let cut = if last >= right { NOT_PLAIN } else { 0 };
-            let height = ((to - from) as u64) << if edge.winding > 0 { 0 } else { UP };
-            self.heights[column] += height + cut;
-            self.mark(column, end);
-            let weight = f64::from(edge.winding);
-            if column == end {
-                let area = weight * reach.right(f64::from(from_x));
-                self.steps[column] += area;
-                self.steps[column + 1] += weight * reach.height - area;
-            } else {
-                self.add_long(simd, (column, end), &reach, weight);
-            }
+        let [low, high] = reach.extent();
+        let first = low_bits(floor(low));
+        let last = low_bits(floor(high + A_LITTLE));
+        if first >= right {
+            return;
+        }
+        if last < self.x0 {
+            self.passed.push((from, to, winding));
+            return;
+        }
+        self.met.push(Met { edge: place, first, last });
+        let height = ((to - from) as u64) << if winding > 0 { 0 } else { UP };
+        let weight = f64::from(winding);
+        let is_within = first >= self.x0 && last < right;
+        let column = (first - self.x0) as usize;
+        if first == last && is_within {
+            self.heights[column] += height;
+            self.touched[column / 64] |= 1 << (column % 64);
+            let area = reach.right_of_one(f64::from(first));
+            self.steps[column] += weight * area;
+            self.steps[column + 1] += weight * (reach.height - area);
+            return;
+        }
+        if first + 1 == last && is_within {
+            self.heights[column] += height;
+            self.mark(column, column + 1);
+            let areas = reach.right_of_two(f64::from(first));
+            let steps = &mut self.steps[column..column + 3];
+            steps[0] += weight * areas[0];
+            steps[1] += weight * (areas[1] - areas[0]);
+            steps[2] += weight * (reach.height - areas[1]);
+            return;
+        }
+        let (from_x, to_x) = (first.max(self.x0), last.min(right - 1));
+        let (column, end) = ((from_x - self.x0) as usize, (to_x - self.x0) as usize);
+        // What goes on beyond the right side is not known to be plain.
+        let cut = if last >= right { NOT_PLAIN } else { 0 };
+        self.heights[column] += height + cut;
+        self.mark(column, end);
+        self.add_long(simd, (column, end), reach, weight);
+    }
+
+    /// Adds what lies left of all pixels to the winding number there.
+    pub(super) fn pass(&self, left: &mut Steps) {
+        for &(from, to, winding) in &self.passed {
+            left.add(from, winding);
+            left.add(to, -winding);
         }
     }
 
@@ -213,15 +243,16 @@ impl RowSums {
         true
     }
 
-    /// The touched chunk from `chunk` on.
-    pub(super) fn next_touched(&self, chunk: usize) -> Option<usize> {
-        let mut word = chunk / 8;
-        let mut bits = *self.touched.get(word)? & (u64::MAX << (chunk % 8 * 8));
+    /// The knot from `chunk` on.
+    #[inline(always)]
+    pub(super) fn next_knot(&self, chunk: usize) -> Option<usize> {
+        let mut word = chunk / 64;
+        let mut bits = *self.knots.get(word)? & (u64::MAX << (chunk % 64));
         while bits == 0 {
             word += 1;
-            bits = *self.touched.get(word)?;
+            bits = *self.knots.get(word)?;
         }
-        Some(word * 8 + bits.trailing_zeros() as usize / 8)
+        Some(word * 64 + bits.trailing_zeros() as usize)
     }
 
     pub(super) fn is_knot(&self, chunk: usize) -> bool {
@@ -251,8 +282,11 @@ impl RowSums {
         simd: S,
         polygon: &Polygon,
         base: f64,
-        out: &mut impl Stretches,
+        (areas, out): (&mut Vec<f32>, &mut impl Stretches),
     ) {
+        if areas.len() < self.chunks * 8 {
+            areas.resize(self.chunks * 8, 0.0);
+        }
         let mut base = base;
         let mut untied = 0;
         // From where on all is `base`, and the touched stretch under way.
@@ -266,7 +300,7 @@ impl RowSums {
                 bits &= !(0xff << (byte * 8));
                 let chunk = word * 8 + byte;
                 if chunk * 8 > stretch.end.next_multiple_of(8) || stretch.is_empty() {
-                    self.hand_on(stretch.clone(), out);
+                    self.hand_on(areas, stretch.clone(), out);
                     let first = chunk * 8 + here.trailing_zeros() as usize;
                     if polygon.is_inside(base as i32) {
                         out.full(self.pixel(stretch.end), self.pixel(first));
@@ -277,17 +311,17 @@ impl RowSums {
                 let means = self.sum_chunk(chunk, &mut base);
                 let knot = self.is_knot(chunk).then(|| self.untied[untied]);
                 untied += usize::from(knot.is_some());
-                let areas = match knot {
+                let sums = match knot {
                     Some(areas) => f64x8::from_slice(simd, &areas),
-                    None => areas(simd, polygon.rule, &means),
+                    None => from_means(simd, polygon.rule, &means),
                 };
-                self.out[chunk * 8..chunk * 8 + 8].copy_from_slice(&eight_areas(simd, areas));
+                areas[chunk * 8..chunk * 8 + 8].copy_from_slice(&eight_areas(simd, sums));
             }
         }
         self.knots[..self.chunks.div_ceil(64)].fill(0);
         self.untied.clear();
         self.steps[self.chunks * 8..self.chunks * 8 + 16].fill(0.0);
-        self.hand_on(stretch.clone(), out);
+        self.hand_on(areas, stretch.clone(), out);
         if polygon.is_inside(base as i32) {
             out.full(self.pixel(stretch.end), self.pixel(self.chunks * 8));
         }
@@ -298,30 +332,39 @@ impl RowSums {
     }
 
     #[inline(always)]
-    fn hand_on(&self, columns: core::ops::Range<usize>, out: &mut impl Stretches) {
+    fn hand_on(&self, areas: &[f32], columns: Range<usize>, out: &mut impl Stretches) {
         if !columns.is_empty() {
-            out.areas(self.pixel(columns.start), &self.out[columns]);
+            out.areas(self.pixel(columns.start), &areas[columns]);
         }
     }
 
     /// The sums of a chunk, from that of the pixel before; and the sum of the pixel after it.
     #[inline(always)]
     fn sum_chunk(&mut self, chunk: usize, sum: &mut f64) -> [f64; 8] {
-        let mut sums = [0.0; 8];
         let steps = &mut self.steps[chunk * 8..chunk * 8 + 9];
-        for (out, step) in sums.iter_mut().zip(&*steps) {
-            *sum += step;
-            *out = *sum;
-        }
-        *sum += steps[8];
+        let mut s = [0.0; 9];
+        s.copy_from_slice(steps);
         steps.fill(0.0);
-        sums
+        // In pairs, so that hardly one waits for another.
+        let (a, b, c, d) = (s[0] + s[1], s[2] + s[3], s[4] + s[5], s[6] + s[7]);
+        let (low, middle) = (*sum, *sum + (a + b));
+        *sum = middle + ((c + d) + s[8]);
+        [
+            low + s[0],
+            low + a,
+            low + (a + s[2]),
+            middle,
+            middle + s[4],
+            middle + c,
+            middle + (c + s[6]),
+            middle + (c + d),
+        ]
     }
 }
 
 /// The areas that follow from mean winding numbers.
 #[inline(always)]
-fn areas<S: Simd>(simd: S, rule: FillRule, means: &[f64; 8]) -> f64x8<S> {
+fn from_means<S: Simd>(simd: S, rule: FillRule, means: &[f64; 8]) -> f64x8<S> {
     let means = f64x8::from_slice(simd, means);
     match rule {
         FillRule::NonZero => means.abs(),
