@@ -28,7 +28,7 @@ pub(crate) struct Job<'a> {
     source: Source,
     target: Target,
     format: Format,
-    pub(crate) interrupt: Interrupt,
+    interrupt: Interrupt,
 }
 
 impl<'a> Job<'a> {

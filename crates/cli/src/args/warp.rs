@@ -56,7 +56,8 @@ Warp a picture: every pixel of the result is the average of what it sees of the 
 
 One of --to, --matrix, --rectify and --map says where things go. Depth, ICC profile and alpha are kept \
 where the format of the result can carry them. EXIF orientation is applied first: coordinates are those \
-of the upright picture. The same picture and options give the same bytes on every machine and any number of threads.";
+of the upright picture. The same picture and options give the same bytes on every machine and any \
+number of threads.";
 
 const EXAMPLES: &str = "\
 Examples:

@@ -44,6 +44,7 @@ pub(super) fn page(
         };
         let _ = writeln!(out, "| {name} | {} |", at_most(median(times), bar));
     }
+    out.push_str("\nllvmpipe was not asked: none of the programs that take part speaks OpenGL.\n");
     for (program, why) in absent {
         let _ = writeln!(out, "\n{program} was not there ({why}).");
     }
