@@ -17,7 +17,7 @@ const fn step(name: &'static str, args: &'static str) -> Step {
 }
 
 /// Quick ones first. The last is the README's first command.
-const STEPS: [Step; 10] = [
+const STEPS: [Step; 11] = [
     step("format", "fmt --all -- --check"),
     step("clippy", "clippy --workspace --all-targets --all-features -- -D warnings"),
     Step {
@@ -31,6 +31,8 @@ const STEPS: [Step; 10] = [
     step("framebuffer without std", "check -p scumble-framebuffer --no-default-features"),
     step("texture without std", "check -p scumble-texture --no-default-features --features libm"),
     step("tests", "test --workspace"),
+    // By the build of the tests, so that nothing is compiled for it.
+    step("gallery", "run --quiet -p lab --bin lab -- gallery docs/gallery --check"),
     step(
         "a picture",
         "run --release -- render assets/scenes/ground.svg -o target/ground.png --force",
@@ -91,15 +93,10 @@ pub(crate) fn quality(args: &[&str]) -> Outcome {
     finish(cargo(run).args(args), "quality")
 }
 
-/// Has the lab draw the gallery, or compare it.
-pub(crate) fn gallery(check: bool) -> Outcome {
+/// Has the lab draw the gallery, or compare it (`--check`), or draw a part of it.
+pub(crate) fn gallery(how: Option<&str>) -> Outcome {
     let run = ["run", "--release", "--quiet", "-p", "lab", "--bin", "lab", "--", "gallery"];
-    let mut command = cargo(run);
-    command.arg("docs/gallery");
-    if check {
-        command.arg("--check");
-    }
-    finish(&mut command, "lab gallery")
+    finish(cargo(run).arg("docs/gallery").args(how), "lab gallery")
 }
 
 /// `cargo bench` over the workspace with the given arguments; after `--peers`, the comparison with

@@ -21,7 +21,8 @@ cargo xtask COMMAND
                                       rendered; write one page that shows them all
   quality [--check] [--times]         judge the texture filters against brute force and write
                                       docs/quality.md, or compare it; say what they take
-  gallery [--check]                   draw docs/gallery/ anew, or compare it
+  gallery [--check | PAGE[/NAME]]     draw docs/gallery/ anew, or compare it; or the pictures of one
+                                      page, or one picture
   bench [ARGS]                        cargo bench over the workspace
   bench --peers [ARGS]                scumble warp beside OpenCV and ImageMagick, where they are
                                       installed (--help lists the arguments)
@@ -41,8 +42,8 @@ fn main() -> ExitCode {
         ["assets", "--check"] => commands::assets(true),
         ["golden", rest @ ..] => golden::run(rest),
         ["quality", rest @ ..] => commands::quality(rest),
-        ["gallery"] => commands::gallery(false),
-        ["gallery", "--check"] => commands::gallery(true),
+        ["gallery"] => commands::gallery(None),
+        ["gallery", one] => commands::gallery(Some(one)),
         ["bench", rest @ ..] => commands::bench(rest),
         [] | ["help" | "--help" | "-h"] => {
             print!("{HELP}");

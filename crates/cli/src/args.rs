@@ -16,7 +16,7 @@ pub(crate) use compare::Compare;
 pub(crate) use diff::Diff;
 pub(crate) use info::{Info, ReadLimits};
 pub(crate) use mip::{Edge, LevelFilter, Mip, StoredAs};
-pub(crate) use signal::{Border, Convolution, Filter, Memory, Of, Spectrum, Window};
+pub(crate) use signal::{Border, Convolution, Filter, InOut, Of, Spectrum, Window};
 pub(crate) use value::{Background, Crop};
 pub(crate) use warp::{Depth, PixelOrigin, Quad, Size as WarpSize, Warp, Way};
 
@@ -282,7 +282,8 @@ pub(crate) struct Report {
     #[arg(short, long)]
     pub(crate) quiet: bool,
 
-    /// Print one JSON object on standard output: size, settings, times in milliseconds, warnings
+    /// Print one JSON object on standard output: size, settings, times in milliseconds, warnings; no
+    /// progress bar
     #[arg(long)]
     pub(crate) json: bool,
 }

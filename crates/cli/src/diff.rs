@@ -4,11 +4,12 @@ mod measure;
 mod triptych;
 
 use crate::args::{Diff, STANDARD_STREAM};
-use crate::error::Failure;
+use crate::error::{Failure, say, warn};
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Request, Target};
 use crate::picture::{Format, Limits, Picture, read};
+use crate::progress::Steps;
 use crate::report;
 use measure::{Comparison, Seen};
 use serde_json::json;
@@ -26,19 +27,26 @@ pub(crate) fn run(options: &Diff) -> Result<(), Failure> {
     let target = target(options, &sources)?;
     let [a, b] = [read(&sources[0], limits)?, read(&sources[1], limits)?];
     let names = sources.map(|s| s.name());
+    if !options.quiet {
+        warn(&names[0], &a.origin.notes);
+        warn(&names[1], &b.origin.notes);
+    }
     if (a.width, a.height) != (b.width, b.height) {
         return sizes_differ(options, &names, [&a, &b]);
     }
     let seen = Seen::pair(&a, &b);
-    let comparison = Comparison::new(&seen, options.tolerance);
+    let passes = if target.is_some() { 2 } else { 1 };
+    let steps = Steps::new(options.quiet || options.json, passes * u64::from(a.height));
+    let comparison = Comparison::new(&seen, options.tolerance, &steps);
     if let Some(target) = &target {
-        triptych::write(&seen, &comparison, target, &interrupt)?;
+        triptych::write(&seen, &comparison, target, &interrupt, &steps)?;
         interrupt.release();
     }
+    steps.clear();
     let to_stdout = matches!(target, Some(Target::Stdout));
     if options.json {
         report::print(&comparison.json(&names).to_string())?;
-    } else if !to_stdout {
+    } else if !to_stdout && !options.quiet {
         report::print(&comparison.to_string())?;
     }
     if comparison.beyond == 0 { Ok(()) } else { Err(Failure::Different) }
@@ -53,8 +61,7 @@ fn target(options: &Diff, sources: &[Source; 2]) -> Result<Option<Target>, Failu
     let (force, json) = (options.force, options.json);
     let request = Request { out: Some(out), force, json };
     let target = Target::new(&request, &sources[0])?;
-    // Neither picture may be the one that is replaced.
-    Target::new(&request, &sources[1])?;
+    target.check_apart(&sources[1], force)?;
     Ok(Some(target))
 }
 
@@ -69,6 +76,11 @@ fn sizes_differ(options: &Diff, names: &[String; 2], [a, b]: [&Picture; 2]) -> R
     } else {
         format!("sizes differ: {} × {} and {} × {}", a.width, a.height, b.width, b.height)
     };
-    report::print(&text)?;
+    // Nothing but a triptych goes to standard output where that goes there.
+    if options.output.as_deref() == Some(Path::new(STANDARD_STREAM)) {
+        say(&text);
+    } else if !options.quiet {
+        report::print(&text)?;
+    }
     Err(Failure::Different)
 }

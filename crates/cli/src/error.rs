@@ -67,6 +67,13 @@ pub(crate) fn say(message: &dyn fmt::Display) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
+/// Prints what a reader of the file called `name` left out or assumed.
+pub(crate) fn warn(name: &str, notes: &[String]) {
+    for note in notes {
+        say(&format!("{name}: warning: {note}"));
+    }
+}
+
 /// The text on one line, with control characters spelled out: a scene's own words end up in
 /// messages, and they must neither break the line nor command the terminal.
 fn one_line(text: &str) -> String {

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// What the signals that came did.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Interrupt {
     cancel: Arc<AtomicBool>,
     signal: Arc<AtomicUsize>,
@@ -51,6 +51,11 @@ impl Interrupt {
     /// Set once a signal has come; for the renderer to look at.
     pub(crate) fn cancel(&self) -> &AtomicBool {
         &self.cancel
+    }
+
+    /// Whether a signal has come.
+    pub(crate) fn is_heard(&self) -> bool {
+        self.cancel.load(Ordering::Relaxed)
     }
 
     /// From here on a signal must leave time to clean up.

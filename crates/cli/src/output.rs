@@ -15,10 +15,11 @@ use std::sync::{Arc, Mutex};
 use tempfile::{NamedTempFile, TempPath};
 
 /// A picture being written. Dropped before [`Output::commit`], it leaves no file, and what its
-/// pipes still write goes nowhere.
+/// pipes still write goes nowhere. After a signal, writing fails.
 #[derive(Debug)]
 pub(crate) struct Output {
     name: String,
+    interrupt: Interrupt,
     channel: Arc<Mutex<Channel>>,
     temporary: Option<(TempPath, FileTarget)>,
 }
@@ -26,7 +27,10 @@ pub(crate) struct Output {
 /// A handle to write into an [`Output`] with. An encoder may own it and drop it at any time: no
 /// error is lost with it, the output keeps the first.
 #[derive(Debug, Clone)]
-pub(crate) struct Pipe(Arc<Mutex<Channel>>);
+pub(crate) struct Pipe {
+    channel: Arc<Mutex<Channel>>,
+    interrupt: Interrupt,
+}
 
 enum Channel {
     Open(BufWriter<Box<dyn Write + Send>>),
@@ -62,16 +66,19 @@ impl Output {
             }
         };
         let channel = Arc::new(Mutex::new(Channel::Open(BufWriter::new(writer))));
-        Ok(Self { name, channel, temporary })
+        Ok(Self { name, interrupt: interrupt.clone(), channel, temporary })
     }
 
     /// A handle to write with.
     pub(crate) fn pipe(&self) -> Pipe {
-        Pipe(Arc::clone(&self.channel))
+        Pipe { channel: Arc::clone(&self.channel), interrupt: self.interrupt.clone() }
     }
 
     /// Writes out what is buffered and gives the file its name.
     pub(crate) fn commit(mut self) -> Result<(), Failure> {
+        if self.interrupt.is_heard() {
+            return Err(self.interrupt.failure());
+        }
         match self.close() {
             Channel::Open(mut writer) => writer.flush(),
             Channel::Broken(e) => Err(e),
@@ -87,6 +94,7 @@ impl Output {
     /// The failure behind an error that a user of a pipe reports.
     pub(crate) fn failure(&self, reported: &dyn std::fmt::Display) -> Failure {
         match self.channel.lock().as_deref() {
+            _ if self.interrupt.is_heard() => self.interrupt.failure(),
             Ok(Channel::Broken(e)) => Failure::io(&self.name, e),
             _ => Failure::Failed(format!("{}: {reported}", self.name)),
         }
@@ -114,7 +122,10 @@ impl Pipe {
         &self,
         work: impl FnOnce(&mut BufWriter<Box<dyn Write + Send>>) -> io::Result<T>,
     ) -> io::Result<T> {
-        let mut channel = self.0.lock().map_err(|_| io::Error::other("a writer panicked"))?;
+        if self.interrupt.is_heard() {
+            return Err(io::Error::other("interrupted"));
+        }
+        let mut channel = self.channel.lock().map_err(|_| io::Error::other("a writer panicked"))?;
         match &mut *channel {
             Channel::Open(writer) => work(writer).map_err(|e| {
                 let reported = io::Error::from(e.kind());

@@ -11,6 +11,7 @@
 //! primaries stay those of the profile, which therefore goes into the output as it came: averages of
 //! light need no particular primaries, and nothing is clipped to a smaller gamut.
 
+mod colors;
 mod curve;
 mod encode;
 mod format;
@@ -140,6 +141,16 @@ impl Pixels {
             Self::U16(v) => v.len(),
             Self::F32(v) => v.len(),
         }
+    }
+
+    /// Bytes that they take.
+    pub(crate) fn bytes(&self) -> u64 {
+        let each = match self {
+            Self::U8(_) => 1,
+            Self::U16(_) => 2,
+            Self::F32(_) => 4,
+        };
+        self.len() as u64 * each
     }
 
     /// Forgets all of them and keeps the memory.

@@ -4,6 +4,8 @@ use crate::error::Failure;
 use crate::interrupt::Interrupt;
 use crate::output::Target;
 use crate::picture::{Channels, Depth, Form, Format, Writer, out_of_turn};
+use scumble::Sink;
+use scumble::pixel::Image;
 use std::time::{Duration, Instant};
 
 /// A sink that writes a PNG: eight bits, sRGB, with alpha only where there may be some.
@@ -68,7 +70,7 @@ impl<'a> PngSink<'a> {
     }
 }
 
-impl scumble::Sink for PngSink<'_> {
+impl Sink for PngSink<'_> {
     type Error = Failure;
 
     fn start(&mut self, width: u32, height: u32) -> Result<(), Failure> {
@@ -84,13 +86,29 @@ impl scumble::Sink for PngSink<'_> {
     }
 }
 
+/// Writes a picture that is whole already, and gives it its name.
+pub(crate) fn write(
+    picture: &Image<[u8; 4]>,
+    target: &Target,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
+    let opaque = picture.pixels().iter().all(|p| p[3] == 255);
+    let side = |n: usize| u32::try_from(n).map_err(|_| Failure::Limit("too large".to_owned()));
+    let mut sink = PngSink::new(target, interrupt, opaque);
+    sink.start(side(picture.width())?, side(picture.height())?)?;
+    sink.rows(0, picture.pixels())?;
+    sink.finish()?;
+    sink.commit()?;
+    interrupt.release();
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::interrupt::tests::unheard;
     use crate::output::FileTarget;
     use png::ColorType;
-    use scumble::Sink;
     use std::fs;
     use std::path::Path;
 

@@ -1,6 +1,7 @@
 //! A progress bar for work that takes its time, where somebody is watching.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::cell::Cell;
 use std::io::{self, IsTerminal};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
@@ -30,10 +31,11 @@ impl Progress {
     }
 
     /// `done` of `total` rows are finished. Any thread may say so.
-    pub(crate) fn update(&self, done: u32, total: u32) {
+    pub(crate) fn update(&self, done: impl Into<u64>, total: impl Into<u64>) {
+        let (done, total) = (done.into(), total.into());
         let due = self.watched && done < total && self.since.elapsed() >= PATIENCE;
         if due || self.bar.get().is_some() {
-            self.bar.get_or_init(|| new_bar(total)).set_position(u64::from(done));
+            self.bar.get_or_init(|| new_bar(total)).set_position(done);
         }
     }
 
@@ -45,15 +47,41 @@ impl Progress {
     }
 }
 
+/// A bar for work that is done piece by piece on one thread.
+#[derive(Debug)]
+pub(crate) struct Steps {
+    progress: Progress,
+    done: Cell<u64>,
+    total: u64,
+}
+
+impl Steps {
+    /// For so many steps of any size.
+    pub(crate) fn new(quiet: bool, total: u64) -> Self {
+        Self { progress: Progress::new(quiet), done: Cell::new(0), total }
+    }
+
+    /// So many more are done.
+    pub(crate) fn add(&self, steps: u64) {
+        self.done.set(self.done.get().saturating_add(steps));
+        self.progress.update(self.done.get(), self.total);
+    }
+
+    /// Takes the bar away.
+    pub(crate) fn clear(&self) {
+        self.progress.clear();
+    }
+}
+
 impl Drop for Progress {
     fn drop(&mut self) {
         self.clear();
     }
 }
 
-fn new_bar(total: u32) -> ProgressBar {
+fn new_bar(total: u64) -> ProgressBar {
     let target = ProgressDrawTarget::stderr_with_hz(REFRESH_HZ);
-    let bar = ProgressBar::with_draw_target(Some(u64::from(total)), target);
+    let bar = ProgressBar::with_draw_target(Some(total), target);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3}% · {eta} left") {
         bar.set_style(style);
     }
@@ -71,29 +99,40 @@ mod tests {
     #[test]
     fn short_work_shows_nothing() {
         let progress = Progress::starting(true, Instant::now());
-        progress.update(1, 10);
+        progress.update(1_u32, 10_u32);
         assert!(progress.bar.get().is_none());
     }
 
     #[test]
     fn long_work_shows_a_bar_if_watched() {
         let watched = Progress::starting(true, long_ago());
-        watched.update(3, 10);
+        watched.update(3_u32, 10_u32);
         assert_eq!(watched.bar.get().unwrap().position(), 3);
-        watched.update(10, 10);
+        watched.update(10_u32, 10_u32);
         assert_eq!(watched.bar.get().unwrap().position(), 10);
         watched.clear();
         assert!(watched.bar.get().unwrap().is_finished());
 
         let unwatched = Progress::starting(false, long_ago());
-        unwatched.update(3, 10);
+        unwatched.update(3_u32, 10_u32);
         assert!(unwatched.bar.get().is_none());
     }
 
     #[test]
     fn no_bar_appears_for_the_last_row() {
         let progress = Progress::starting(true, long_ago());
-        progress.update(10, 10);
+        progress.update(10_u32, 10_u32);
         assert!(progress.bar.get().is_none());
+    }
+
+    #[test]
+    fn steps_add_up() {
+        let steps =
+            Steps { progress: Progress::starting(true, long_ago()), done: Cell::new(0), total: 9 };
+        steps.add(2);
+        steps.add(3);
+        assert_eq!(steps.progress.bar.get().unwrap().position(), 5);
+        steps.clear();
+        assert!(steps.progress.bar.get().unwrap().is_finished());
     }
 }

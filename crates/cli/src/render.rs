@@ -5,6 +5,7 @@ use crate::error::Failure;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Request, Target};
+use crate::picture::Format;
 use crate::png_sink::PngSink;
 use crate::progress::Progress;
 use crate::report::{Report, Times, located, warn};
@@ -41,7 +42,7 @@ pub(crate) fn run(options: &Render) -> Result<(), Failure> {
     let choices = Choices::new(&options.quality, &options.color, parsed.profile)?;
     let settings = choices.settings(&canvas, options)?;
     let job = Job { source: &source, target: &target, interrupt: &interrupt, settings: &settings };
-    let (render, encode) = job.draw(&parsed, options.report.quiet)?;
+    let (render, encode) = job.draw(&parsed, options.report.quiet || options.report.json)?;
     if !options.report.json {
         return Ok(());
     }
@@ -135,6 +136,11 @@ pub(crate) fn read(
     options: &Render,
 ) -> Result<Parsed, Failure> {
     let text = source.read(limits.max_document_bytes as u64)?;
+    if let Some(format) = Format::of_content(&text) {
+        let (name, kind) = (source.name(), format.name());
+        let why = format!("{name}: it is a picture ({kind}); what is drawn is a scene, as SVG");
+        return Err(Failure::Failed(why));
+    }
     let profile = match options.files.profile {
         args::Profile::Auto => ProfileChoice::Auto,
         args::Profile::Svg => ProfileChoice::Svg,

@@ -5,8 +5,8 @@ mod report;
 mod sink;
 mod way;
 
-use crate::args::{self, STANDARD_STREAM, Space, Warp as Options};
-use crate::error::Failure;
+use crate::args::{STANDARD_STREAM, Warp as Options};
+use crate::error::{self, Failure};
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Request, Target};
@@ -16,7 +16,7 @@ use crate::settings;
 use crate::size::Canvas;
 use report::Report;
 use scumble::Control;
-use scumble::pixel::{Premul, WorkingSpace};
+use scumble::pixel::Premul;
 use scumble::texture::Sampler;
 use scumble::warp::{Prepared, Verification, Warp, WarpError};
 use sink::PictureSink;
@@ -32,7 +32,16 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let out = options.out.as_deref().or(options.output.as_deref());
     let request = Request { out, force: options.force, json: options.report.json };
     let target = Target::new(&request, &source)?;
-    let format = file::format(&target)?;
+    let lookup = options.way.map.as_deref().map(Source::new);
+    if let Some(lookup) = &lookup {
+        if *lookup == Source::Stdin && source == Source::Stdin {
+            return Err(Failure::Usage(
+                "only one of IN and --map can be standard input".to_owned(),
+            ));
+        }
+        target.check_apart(lookup, options.force)?;
+    }
+    let format = target.format()?;
 
     let start = Instant::now();
     let limits =
@@ -41,9 +50,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let (map, canvas) = way::choose(&options.way, &picture, limits)?;
     let decode = start.elapsed();
     if !options.report.quiet {
-        for note in &picture.origin.notes {
-            crate::error::say(&format!("{}: warning: {note}", source.name()));
-        }
+        error::warn(&source.name(), &picture.origin.notes);
     }
     let job = Job {
         options,
@@ -96,15 +103,12 @@ impl Job<'_> {
             magnify: filter.magnify.unwrap_or(preset.magnify),
             ..preset
         };
-        let held = file::memory(self.picture);
+        let held = self.picture.pixels.bytes().saturating_add(map.memory());
         Ok(Warp {
             crop: settings::crop(&self.canvas)?,
             sampler,
             border: filter.border,
-            space: match filter.space {
-                Space::Srgb => WorkingSpace::Srgb,
-                Space::Linear => WorkingSpace::Linear,
-            },
+            space: filter.space.working(),
             threads: options.limits.threads,
             max_memory: options.limits.max_memory.saturating_sub(held),
             ..Warp::new(map, self.canvas.width, self.canvas.height)
@@ -117,7 +121,7 @@ impl Job<'_> {
         let prepared = warp.prepare(self.picture).map_err(|e| self.failure(e.widen()))?;
         let mut form = file::form(self.options, self.picture, format, &prepared)?;
         (form.width, form.height) = self.canvas.picture();
-        file::check(&form, self.target, warp.max_memory)?;
+        form.check_for(self.target, warp.max_memory)?;
         let depth = form.depth;
         let mut sink =
             PictureSink::new(self.target, self.interrupt, form, warp.space, &self.picture.tone);
@@ -129,16 +133,16 @@ impl Job<'_> {
             }
         })
         .map_err(|e| self.failure(e))?;
-        let encode = sink.spent();
-        let elapsed = start.elapsed();
+        let (elapsed, spent) = (start.elapsed(), sink.spent());
         let threads = prepared.stats().threads;
+        // On several threads rows are encoded while others are made.
+        let warp = if threads > 1 { elapsed } else { elapsed.saturating_sub(spent) };
         let verification =
             if self.options.verify { Some(self.verify(&prepared, depth)?) } else { None };
         let finish = Instant::now();
         sink.commit()?;
         self.interrupt.release();
-        let encode = encode + finish.elapsed();
-        let warp = elapsed.saturating_sub(encode);
+        let encode = spent + finish.elapsed();
         Ok(Done { depth, threads, warp, encode, verification })
     }
 
@@ -153,7 +157,7 @@ impl Job<'_> {
 
     /// Work with a bar that can be interrupted.
     fn watched<T>(&self, work: impl FnOnce(&Control<'_>) -> T) -> T {
-        let progress = Progress::new(self.options.report.quiet);
+        let progress = Progress::new(self.options.report.quiet || self.options.report.json);
         let update = |p: scumble::Progress| progress.update(p.rows_done, p.rows);
         work(&Control { progress: Some(&update), cancel: Some(self.interrupt.cancel()) })
     }
@@ -168,14 +172,5 @@ impl Job<'_> {
             WarpError::Size { .. } => Failure::Limit(format!("{}: {error}", self.name)),
             _ => Failure::Failed(format!("{}: {error}", self.name)),
         }
-    }
-}
-
-/// The word that chooses a depth.
-fn depth_of(word: args::Depth) -> Depth {
-    match word {
-        args::Depth::Eight => Depth::Eight,
-        args::Depth::Sixteen => Depth::Sixteen,
-        args::Depth::Float => Depth::Float,
     }
 }

@@ -17,6 +17,8 @@
 //! Where all that is drawn is opaque, [`Visibility`] keeps what is seen instead of its colour: four
 //! bytes a sample in place of sixteen, and each colour is asked for once, at the end.
 //!
+//! [`Exposure`] averages whole frames, row by row: motion blur.
+//!
 //! # Memory
 //!
 //! A pixel whose samples are all alike is stored once: 20 bytes a pixel, 80 KiB for a tile of
@@ -55,6 +57,7 @@
 extern crate alloc;
 
 mod encode;
+mod exposure;
 mod level;
 mod palette;
 mod samples;
@@ -63,6 +66,7 @@ mod tile;
 mod visibility;
 
 pub use encode::{encode_row, encode_row_dithered, encode_row16};
+pub use exposure::Exposure;
 pub use palette::Palette;
 pub use tile::Tile;
 pub use visibility::{PixelColors, Seen, Visibility};

@@ -28,7 +28,10 @@ mod scenes;
 mod svg;
 mod textures;
 pub mod timing;
+mod views;
 pub mod workloads;
+
+pub use views::ViewError;
 
 use std::path::{Path, PathBuf};
 

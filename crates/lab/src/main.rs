@@ -1,5 +1,5 @@
 //! `lab assets DIR` draws the assets into a folder, `lab gallery DIR` the gallery; with `--check` they
-//! compare instead.
+//! compare instead. `lab gallery DIR PAGE/NAME` draws one picture.
 
 use std::error::Error;
 use std::path::Path;
@@ -13,8 +13,11 @@ fn main() -> ExitCode {
         ["assets", folder, "--check"] => assets(Path::new(folder), true),
         ["gallery", folder] => gallery(Path::new(folder), false),
         ["gallery", folder, "--check"] => gallery(Path::new(folder), true),
+        ["gallery", folder, begin] => pictures(Path::new(folder), begin),
         _ => {
-            eprintln!("usage: lab assets|gallery DIR [--check]");
+            eprintln!(
+                "usage: lab assets|gallery DIR [--check]\n       lab gallery DIR PAGE[/NAME]"
+            );
             return ExitCode::from(2);
         }
     };
@@ -36,6 +39,10 @@ fn assets(folder: &Path, check: bool) -> Result<String, Box<dyn Error>> {
 
 fn gallery(folder: &Path, check: bool) -> Result<String, Box<dyn Error>> {
     keep(folder, check, &lab::gallery::files()?)
+}
+
+fn pictures(folder: &Path, begin: &str) -> Result<String, Box<dyn Error>> {
+    keep(folder, false, &lab::gallery::pictures(begin)?)
 }
 
 /// Writes the files, or compares them with what stands there.

@@ -67,7 +67,7 @@ const UNKNOWN: (f64, &str) = (7.0, "M0 0L7 0L7 14L0 14L0 0");
 /// Characters with their widths and strokes, in units: capitals from 0 down to 14, small letters from
 /// 4, and 18.5 below the line.
 #[rustfmt::skip]
-const GLYPHS: [(char, f64, &str); 98] = [
+const GLYPHS: [(char, f64, &str); 100] = [
     (' ', 5.0, ""),
     ('!', 1.0, "M0.5 0L0.5 9.5M0.5 13.6L0.5 14"),
     ('"', 4.0, "M0.5 0L0.5 4M3.5 0L3.5 4"),
@@ -166,6 +166,8 @@ const GLYPHS: [(char, f64, &str); 98] = [
     ('×', 7.5, "M0 4.8L7.5 12.2M7.5 4.8L0 12.2"),
     ('°', 4.0, "M2 0Q4 0 4 2Q4 4 2 4Q0 4 0 2Q0 0 2 0"),
     ('σ', 8.5, "M8.5 4L4 4Q0 4 0 9Q0 14 4 14Q8 14 8 9Q8 5.5 5.5 4"),
+    ('π', 9.0, "M0 4.8L9 4.8M2.6 4.8L2.1 14M6.7 4.8L6.7 11.5Q6.7 14.2 8.8 13.6"),
+    ('²', 4.2, "M0.2 2.1Q0.2 0 2.1 0Q4 0 4 2Q4 3.4 2.3 5L0 7.2L4.2 7.2"),
 ];
 
 #[cfg(test)]

@@ -1,188 +1,327 @@
-//! Runs of pixels through the elliptical filter: the set-up of sixteen at a time.
-//!
-//! The formulas are those of single samples, called in loops over arrays that hold no branch and no
-//! call, so that the compiler makes vectors of them. What is rare is redone one by one.
+//! Runs of pixels through the elliptical filter, sixteen abreast: the same numbers as in
+//! [`crate::covariance`], [`crate::ewa`] and [`crate::walk`], with a lane for each pixel. What is rare is
+//! done one by one.
 
-use crate::abreast::{ABREAST, ALONE, IDLE, Sheet, Walks};
-use crate::covariance::Covariance;
-use crate::engine::Engine;
-use crate::ewa::{Limits, auto_pick, walk_in};
-use crate::level::Frame;
-use crate::lod::Pick;
+use crate::abreast::{Sheet, Walks};
+use crate::covariance::{Covariance, LEAST_VARIANCE, PIXEL_VARIANCE, RECONSTRUCTION};
+use crate::ewa::{BAND, BAND_START, Limits, walk_in};
+use crate::gaussian::UNIT;
+use crate::level::{Frame, Level};
+use crate::math::{WHOLE, sqrt32};
 use crate::point::lerp;
-use crate::texture::into_range;
-use crate::walk::Walk;
-use crate::{Footprint, Texture};
+use crate::run::{ABREAST, Run, Sixteen};
+use crate::walk::{ASIDE, FARTHEST, LANES, SMALL, THIN};
+use crate::{Texture, abreast, walk_simd};
+use fearless_simd::{Simd, f32x4, f32x16, f64x8, i32x16, mask32x16, prelude::*};
 use scumble_pixel::Premul;
-
-/// Pixels set up together.
-const BATCH: usize = ABREAST;
 
 /// Pixels from which on a batch is quicker than one by one.
 pub(crate) const WORTH: usize = 4;
 
-/// Ellipses in level 0.
-#[derive(Default)]
-struct Ellipses {
-    u: [f64; BATCH],
-    v: [f64; BATCH],
-    uu: [f64; BATCH],
-    uv: [f64; BATCH],
-    vv: [f64; BATCH],
-    det: [f64; BATCH],
-    /// V₂/s².
-    minor: [f64; BATCH],
-    /// 1 where the footprint is finite and bounded, else 0.
-    usable: [i32; BATCH],
-}
-
-/// The levels of each ellipse.
-#[derive(Default)]
-struct Chosen {
-    pick: [Pick; BATCH],
-    /// Whether all read the same.
-    same: bool,
-    /// Whether one blends two.
-    blends: bool,
-}
+/// Sixteen colours.
+type Colors = [[f32; 4]; ABREAST];
 
 /// Samples a run of footprints with the level chosen by the ellipse.
 #[inline(always)]
-pub(crate) fn fill(
+pub(crate) fn fill<S: Simd>(
+    simd: S,
     t: &Texture,
-    engine: impl Engine,
-    at: impl Fn(usize) -> Footprint,
+    run: impl Run,
     limits: &Limits,
     out: &mut [Premul],
 ) {
     let mut sheet = Sheet::default();
-    for (chunk, out) in out.chunks_mut(BATCH).enumerate() {
-        let first = chunk * BATCH;
-        // Beyond the end, the last again.
-        let last = out.len() - 1;
-        let ellipses = Ellipses::new(
-            t,
-            limits,
-            #[inline(always)]
-            |i| at(first + i.min(last)),
-        );
-        let chosen = Chosen::new(t, &ellipses, limits);
-        let wanted = |i: usize| (i <= last) & (ellipses.usable[i] != 0);
-        let mut colors = [[0.0; 4]; BATCH];
-        let mut walks = chosen.walks(t, &ellipses, limits, 0, wanted);
-        engine.walk_all(t, &walks, &mut sheet, &mut colors);
-        if chosen.blends {
-            let mut coarser = [[0.0; 4]; BATCH];
-            let blends = |i: usize| wanted(i) & (chosen.pick[i].coarser > 0.0);
-            walks = chosen.walks(t, &ellipses, limits, 1, blends);
-            engine.walk_all(t, &walks, &mut sheet, &mut coarser);
-            for ((color, next), pick) in colors.iter_mut().zip(coarser).zip(&chosen.pick) {
-                if pick.coarser > 0.0 {
-                    *color = lerp(*color, next, pick.coarser);
-                }
+    for (chunk, out) in out.chunks_mut(ABREAST).enumerate() {
+        let spots = run.sixteen(simd, t, chunk * ABREAST);
+        let ellipses = Ellipses::of(simd, &spots, limits);
+        let picks = Picks::new(simd, ellipses.minor * limits.inverse_least, t, limits.blend);
+        let asked = (1u64 << out.len()) - 1;
+        let usable = spots.usable.to_bitmask() & asked;
+        let mut batch = Batch { simd, t, limits, spots: &spots, ellipses, sheet: &mut sheet };
+        let mut colors = [[0.0; 4]; ABREAST];
+        batch.fill(picks.level, usable, &mut colors);
+        let blends = picks.coarser.simd_gt(0.0).to_bitmask() & usable;
+        if blends != 0 {
+            let mut next = [[0.0; 4]; ABREAST];
+            batch.fill(picks.level + 1, blends, &mut next);
+            let coarser = picks.coarser.to_array();
+            for i in lanes(blends) {
+                colors[i] = lerp(colors[i], next[i], coarser[i]);
             }
         }
-        for ((out, color), usable) in out.iter_mut().zip(colors).zip(ellipses.usable) {
-            *out = if usable == 0 { t.average() } else { into_range(color) };
+        for (out, color) in out.iter_mut().zip(colors) {
+            *out = within(simd, color);
+        }
+        for i in lanes(asked & !usable) {
+            out[i] = t.average();
         }
     }
 }
 
-impl Ellipses {
+/// [`into_range`](crate::texture::into_range).
+#[inline(always)]
+fn within<S: Simd>(simd: S, color: [f32; 4]) -> Premul {
+    let zero = f32x4::splat(simd, 0.0);
+    let alpha = f32x4::splat(simd, color[3]).max(zero).min(f32x4::splat(simd, 1.0));
+    Premul(f32x4::load_array(simd, color).max(zero).min(alpha).to_array())
+}
+
+/// The numbers of the bits that are set.
+#[inline(always)]
+pub(crate) fn lanes(bits: u64) -> impl Iterator<Item = usize> {
+    let mut rest = bits;
+    core::iter::from_fn(
+        #[inline(always)]
+        move || {
+            let lane = rest.trailing_zeros() as usize;
+            rest &= rest.wrapping_sub(1);
+            (lane < ABREAST).then_some(lane)
+        },
+    )
+}
+
+/// [`Covariance`]s in texels of the image.
+#[derive(Clone, Copy)]
+struct Ellipses<S: Simd> {
+    uu: f32x16<S>,
+    uv: f32x16<S>,
+    vv: f32x16<S>,
+    det: f32x16<S>,
+    /// V₂.
+    minor: f32x16<S>,
+}
+
+impl<S: Simd> Ellipses<S> {
+    /// [`Covariance::of`].
     #[inline(always)]
-    fn new(t: &Texture, limits: &Limits, at: impl Fn(usize) -> Footprint) -> Self {
-        let mut e = Self::default();
-        for i in 0..BATCH {
-            let f = t.nearer(&at(i));
-            let (sigma, minor) = Covariance::of(&f.jacobian, limits.inverse_ratio);
-            e.u[i] = f.u;
-            e.v[i] = f.v;
-            e.uu[i] = sigma.uu;
-            e.uv[i] = sigma.uv;
-            e.vv[i] = sigma.vv;
-            e.det[i] = sigma.det;
-            e.minor[i] = minor * limits.inverse_least;
-            e.usable[i] = i32::from(f.is_finite() & f.is_bounded());
+    fn of(simd: S, spots: &Sixteen<S>, limits: &Limits) -> Self {
+        let zero = f32x16::splat(simd, 0.0);
+        let [a, b, c, d] = spots.jacobian;
+        let p = a * a + b * b;
+        let r = c * c + d * d;
+        let q = a * c + b * d;
+        let (x, y) = (p - r, q * 2.0);
+        let h = (x * x + y * y).sqrt();
+        let s1 = (p + r + h) * 0.5;
+        let s2 = spots.determinant * spots.determinant / s1;
+        let s2 = s1.simd_gt(zero).select(s2, zero);
+        let v1 = s1 * PIXEL_VARIANCE + RECONSTRUCTION;
+        let v2 = s2 * PIXEL_VARIANCE + RECONSTRUCTION;
+        let least = v1 * limits.inverse_ratio;
+        let wide = v2.simd_gt(least).select(v2, least);
+        let k = (wide - v2) * 0.5 / h;
+        let k = h.simd_gt(zero).select(k, zero);
+        Self {
+            uu: (p * PIXEL_VARIANCE + RECONSTRUCTION) + k * (h - x),
+            uv: q * PIXEL_VARIANCE - k * y,
+            vv: (r * PIXEL_VARIANCE + RECONSTRUCTION) + k * (h + x),
+            det: v1 * wide,
+            minor: wide,
         }
-        e
+    }
+
+    /// [`Covariance::at_level`].
+    #[inline(always)]
+    fn at_level(&self, frame: &Frame) -> Self {
+        let ([ss_u, ss_uv, ss_v, all], [mu, mv]) = (frame.products, frame.blurred);
+        Self {
+            uu: (self.uu - mu) * ss_u,
+            uv: self.uv * ss_uv,
+            vv: (self.vv - mv) * ss_v,
+            det: ((self.det - self.vv * mu) - (self.uu - mu) * mv) * all,
+            minor: self.minor,
+        }
+    }
+
+    /// [`Covariance::needs_mending`].
+    #[inline(always)]
+    fn needs_mending(&self, frame: &Frame, limits: &Limits) -> mask32x16<S> {
+        let sum = self.uu + self.vv;
+        let least = self.det - (sum - LEAST_VARIANCE) * LEAST_VARIANCE;
+        let [u, v] = frame.most;
+        least.simd_lt(0.0)
+            | sum.simd_lt(2.0 * LEAST_VARIANCE)
+            | self.det.simd_gt(limits.most_det)
+            | (self.uu * limits.radius_squared).simd_gt(u * u)
+            | (self.vv * limits.radius_squared).simd_gt(v * v)
     }
 
     #[inline(always)]
     fn get(&self, i: usize) -> Covariance {
-        Covariance { uu: self.uu[i], uv: self.uv[i], vv: self.vv[i], det: self.det[i] }
+        Covariance {
+            uu: self.uu.to_array()[i],
+            uv: self.uv.to_array()[i],
+            vv: self.vv.to_array()[i],
+            det: self.det.to_array()[i],
+        }
     }
 }
 
-impl Chosen {
+/// The levels that are read.
+struct Picks<S: Simd> {
+    /// Counted from the first that is kept.
+    level: i32x16<S>,
+    coarser: f32x16<S>,
+}
+
+impl<S: Simd> Picks<S> {
+    /// [`auto_pick`](crate::ewa::auto_pick).
     #[inline(always)]
-    fn new(t: &Texture, e: &Ellipses, limits: &Limits) -> Self {
-        let mut chosen = Self { same: true, ..Self::default() };
-        for i in 0..BATCH {
-            chosen.pick[i] = auto_pick(e.minor[i], t.levels.len() - 1, limits.blend);
+    fn new(simd: S, minor: f32x16<S>, t: &Texture, blend: bool) -> Self {
+        let [first, last] = t.range();
+        let first = i32x16::splat(simd, first as i32);
+        let last = i32x16::splat(simd, last as i32);
+        let zero = i32x16::splat(simd, 0);
+        let level = ((minor.bitcast::<i32x16<S>>() >> 23) - 127).max(zero) >> 1;
+        let level = level.max(first).min(last);
+        if !blend {
+            return Self { level: level - first, coarser: f32x16::splat(simd, 0.0) };
         }
-        for pick in &chosen.pick {
-            chosen.same &= pick.level == chosen.pick[0].level;
-            chosen.blends |= pick.coarser > 0.0;
+        let ratio = minor * ((-(level << 1) + 127) << 23).bitcast::<f32x16<S>>();
+        let x = (ratio - BAND_START) * BAND;
+        let blends = level.simd_lt(last) & x.simd_gt(0.0);
+        let coarser = x * x * (-(x * 2.0) + 3.0);
+        Self { level: level - first, coarser: blends.select(coarser, f32x16::splat(simd, 0.0)) }
+    }
+}
+
+/// Sixteen pixels on their way.
+struct Batch<'a, S: Simd> {
+    simd: S,
+    t: &'a Texture,
+    limits: &'a Limits,
+    spots: &'a Sixteen<S>,
+    ellipses: Ellipses<S>,
+    sheet: &'a mut Sheet,
+}
+
+impl<S: Simd> Batch<'_, S> {
+    /// The colours of the lanes whose bits are set, each in its level.
+    #[inline(always)]
+    fn fill(&mut self, level: i32x16<S>, wanted: u64, out: &mut Colors) {
+        let levels = level.to_array();
+        let mut rest = wanted;
+        while rest != 0 {
+            let index = levels[rest.trailing_zeros() as usize % ABREAST];
+            let same = level.simd_eq(index).to_bitmask() & rest;
+            rest &= !same;
+            self.fill_level(index as usize, same, out);
         }
-        chosen
     }
 
-    /// The walks in the chosen levels, or so many levels on, of those that are wanted.
+    /// The colours of lanes that read the same level.
     #[inline(always)]
-    fn walks(
-        &self,
-        t: &Texture,
-        e: &Ellipses,
-        limits: &Limits,
-        on: usize,
-        wanted: impl Fn(usize) -> bool,
-    ) -> Walks {
-        let last = t.levels.len() - 1;
-        let level = |i: usize| &t.levels[(self.pick[i].level + on).min(last)];
-        // To collect the frames of several levels takes longer than all the rest.
-        let mut walks = Walks { cut: limits.cut, ..Walks::default() };
-        let mut rare = [0; BATCH];
-        if self.same {
-            let frame = level(0).frame;
-            fill_walks(e, |_| &frame, limits, &mut walks, &mut rare);
-        } else {
-            fill_walks(e, |i| &level(i).frame, limits, &mut walks, &mut rare);
+    fn fill_level(&mut self, index: usize, wanted: u64, out: &mut Colors) {
+        let simd = self.simd;
+        let Some(level) = self.t.levels.get(index) else { return };
+        let sigma = self.ellipses.at_level(&level.frame);
+        let (walks, easy) = self.walks(level, sigma);
+        let easy = easy.to_bitmask() & wanted;
+        if easy != 0 {
+            abreast::walk_all(simd, self.t, level, &walks, easy, self.sheet, out);
         }
-        for (i, rare) in rare.into_iter().enumerate() {
-            let level = level(i);
-            walks.stride[i] = level.stride as i32;
-            walks.base[i] = level.base;
-            [walks.mask_x[i], walks.mask_y[i]] = level.mask;
-            walks.level[i] = (self.pick[i].level + on).min(last) as u32;
-            if !wanted(i) {
-                walks.how[i] = IDLE;
-            } else if rare != 0 {
-                let sigma = e.get(i).at_level(&level.frame);
-                let index = walks.level[i] as usize;
-                let walk = walk_in(t, index, e.u[i], e.v[i], sigma, limits);
-                walks.set(i, &walk);
-                walks.how[i] = ALONE + walk.inside;
+        for i in lanes(wanted & !easy) {
+            let u = self.spots.u[i / 8].to_array()[i % 8];
+            let v = self.spots.v[i / 8].to_array()[i % 8];
+            let walk = walk_in(self.t, index, u, v, sigma.get(i), self.limits);
+            out[i] = simd.vectorize(
+                #[inline(always)]
+                || walk_simd::walk(simd, level, self.t.wrap, &walk),
+            );
+        }
+    }
+
+    /// [`walk_in`] the level for each lane; and those where nothing needs mending and all that is read
+    /// can be read in place.
+    #[inline(always)]
+    fn walks(&self, level: &Level, sigma: Ellipses<S>) -> (Walks<S>, mask32x16<S>) {
+        let (simd, limits, frame) = (self.simd, self.limits, &level.frame);
+        let [scale_u, scale_v] = frame.scale;
+        let (mut x0, mut fx) = place(self.spots.u, scale_u);
+        let (mut y0, mut fy) = place(self.spots.v, scale_v);
+        let mut s = sigma;
+        let (mut wide, mut tall) = (reach(simd, s.uu, limits), reach(simd, s.vv, limits));
+        if frame.ends {
+            let (zero, thin) = (f32x16::splat(simd, 0.0), f32x16::splat(simd, THIN));
+            let [last_x, last_y] = frame.last;
+            if let Some(out) = beyond(simd, &mut x0, &mut wide, last_x, limits) {
+                fx = out.select(zero, fx);
+                s.uu = out.select(thin, s.uu);
+                s.uv = out.select(zero, s.uv);
+                s.det = out.select(s.vv * THIN, s.det);
+            }
+            if let Some(out) = beyond(simd, &mut y0, &mut tall, last_y, limits) {
+                fy = out.select(zero, fy);
+                s.vv = out.select(thin, s.vv);
+                s.uv = out.select(zero, s.uv);
+                s.det = out.select(s.uu * THIN, s.det);
             }
         }
-        walks
+        // A texel more takes care of rounding, and the last quad's own length.
+        let ([low_x, low_y], [high_x, high_y]) = (frame.low, frame.high);
+        let inside = (x0 - wide).simd_ge(low_x)
+            & (x0 + wide).simd_le(high_x.saturating_sub(LANES as i32))
+            & (y0 - tall).simd_ge(low_y)
+            & (y0 + tall).simd_le(high_y.saturating_sub(1));
+        let inverse_vv = f32x16::splat(simd, 1.0) / s.vv;
+        let across = s.det * inverse_vv;
+        let run = across.sqrt() * limits.radius;
+        let groups = ((run * 0.5).floor() + 1.0).to_int::<i32x16<S>>();
+        let walks = Walks {
+            x0,
+            y0,
+            fx,
+            fy,
+            slope: s.uv * inverse_vv,
+            row_scale: inverse_vv * (0.5 * UNIT),
+            run_scale: f32x16::splat(simd, 0.5 * UNIT) / across,
+            row_width: s.vv * (2.0 / UNIT),
+            run_width: across * (2.0 / UNIT),
+            cut: f32x16::splat(simd, limits.cut),
+            groups,
+            small: s.det.simd_le(SMALL),
+        };
+        (walks, inside & !s.needs_mending(frame, limits))
     }
 }
 
-/// The walks over all the ellipses, and 1 for those that need mending.
+/// [`walk::reach`](crate::walk::reach).
 #[inline(always)]
-fn fill_walks<'a>(
-    e: &Ellipses,
-    frame: impl Fn(usize) -> &'a Frame,
+fn reach<S: Simd>(simd: S, variance: f32x16<S>, limits: &Limits) -> i32x16<S> {
+    let reach = variance.sqrt() * limits.radius;
+    let most = f32x16::splat(simd, FARTHEST);
+    reach.simd_lt(most).select(reach, most).to_int::<i32x16<S>>() + 1
+}
+
+/// Puts the ellipses that lie wholly beyond the texels 0 to `last` of an axis beside them; which.
+#[inline(always)]
+fn beyond<S: Simd>(
+    simd: S,
+    at: &mut i32x16<S>,
+    reach: &mut i32x16<S>,
+    last: i32,
     limits: &Limits,
-    o: &mut Walks,
-    rare: &mut [i32; BATCH],
-) {
-    for (i, rare) in rare.iter_mut().enumerate() {
-        let frame = frame(i);
-        let sigma = e.get(i).at_level(frame);
-        let w = Walk::new(e.u[i], e.v[i], frame, &sigma, limits);
-        o.set(i, &w);
-        o.how[i] = ALONE + w.inside;
-        *rare = i32::from(sigma.needs_mending(frame, limits));
+) -> Option<mask32x16<S>> {
+    let (before, after) = ((*at + *reach).simd_lt(-1), (*at - *reach).simd_gt(last));
+    let out = before | after;
+    if !out.any_true() {
+        return None;
     }
+    let aside = i32x16::splat(simd, last + ASIDE);
+    let aside = before.select(i32x16::splat(simd, -1 - ASIDE), aside);
+    *at = out.select(aside, *at);
+    let thin = (limits.radius * sqrt32(THIN)) as i32 + 1;
+    *reach = out.select(i32x16::splat(simd, thin), *reach);
+    Some(out)
+}
+
+/// One axis of [`Place::new`](crate::walk::Place::new).
+#[inline(always)]
+fn place<S: Simd>(at: [f64x8<S>; 2], scale: f64) -> (i32x16<S>, f32x16<S>) {
+    let [low, high] = at;
+    let (low, high) = (low * scale - 0.5, high * scale - 0.5);
+    let (low0, high0) = (low.floor(), high.floor());
+    let rest = (low - low0).narrow(high - high0);
+    let low = (low0 + WHOLE).bitcast::<i32x16<S>>();
+    (low.unzip_low((high0 + WHOLE).bitcast::<i32x16<S>>()), rest)
 }

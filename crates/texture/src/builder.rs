@@ -32,7 +32,7 @@ use core::ops::Range;
 /// }
 /// let texture = builder.finish()?;
 /// assert_eq!((texture.width(), texture.height(), texture.level_count()), (1000, 800, 1));
-/// assert!(texture.memory() < 150 * 100 * 8);
+/// assert!(texture.memory() < 160 * 100 * 8);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]

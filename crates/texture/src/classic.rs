@@ -88,7 +88,7 @@ impl Classic {
         join: impl FnOnce(R, R, f32) -> R,
     ) -> R {
         let shape = self.shape(&f.jacobian);
-        let Pick { level, coarser } = self.pick(f, &shape, t.levels.len() - 1);
+        let Pick { level, coarser } = self.pick(f, &shape, t.range());
         let within = |index: usize| {
             let level = &t.levels[index];
             each(level, &Walk::new(f, &shape, level.frame.scale, radius))
@@ -112,15 +112,15 @@ impl Classic {
     }
 
     /// The two levels: in the coarser one the minor axis has x to 2x texels.
-    fn pick(&self, f: &Footprint, shape: &Shape, last: usize) -> Pick {
+    fn pick(&self, f: &Footprint, shape: &Shape, [first, last]: [usize; 2]) -> Pick {
         if self.sampler.level != LevelMode::Auto {
             let step = f.longest_step_squared();
-            return lod::pick(step, lod::detail(step), self.sampler.level, last);
+            return lod::pick(step, lod::detail(step), self.sampler.level, [first, last]);
         }
-        let detail = (0.5 * log2(shape.minor * self.inverse_least) - 1.0).max(0.0);
+        let detail = (0.5 * log2(shape.minor * self.inverse_least) - 1.0).max(first as f64);
         let level = (detail as usize).min(last);
         let coarser = if level < last { (detail - level as f64) as f32 } else { 0.0 };
-        Pick { level, coarser }
+        Pick { level: level - first, coarser }
     }
 }
 

@@ -1,10 +1,12 @@
-use crate::abreast::{ABREAST, IDLE, Sheet, Walks};
+use crate::ewa::Limits;
 use crate::level::Level;
 use crate::point;
+use crate::run::Run;
 use crate::texel::Texel;
 use crate::walk::Walk;
 use crate::{Texture, Wrap};
 use fearless_simd::{Simd, f32x8, i16x8, prelude::*};
+use scumble_pixel::Premul;
 
 /// The inner loops, in scalar code or in vectors: the same bits from each.
 pub(crate) trait Engine: Copy {
@@ -14,8 +16,9 @@ pub(crate) trait Engine: Copy {
     /// The bilinear mean of two rows of two texels, in steps.
     fn bilinear(self, top: &[Texel; 2], bottom: &[Texel; 2], fx: f32, fy: f32) -> [f32; 4];
 
-    /// Sixteen walks, of those that are not idle.
-    fn walk_all(self, t: &Texture, walks: &Walks, sheet: &mut Sheet, out: &mut [[f32; 4]; ABREAST]);
+    /// Samples a run of footprints with the level chosen by the ellipse, if there is a way that is
+    /// quicker than one by one.
+    fn ellipses(self, t: &Texture, run: impl Run, limits: &Limits, out: &mut [Premul]) -> bool;
 }
 
 /// The definition.
@@ -37,10 +40,8 @@ impl Engine for Scalar {
         point::bilinear(top, bottom, fx, fy)
     }
 
-    fn walk_all(self, t: &Texture, walks: &Walks, _: &mut Sheet, out: &mut [[f32; 4]; ABREAST]) {
-        for i in (0..ABREAST).filter(|i| walks.how[*i] != IDLE) {
-            out[i] = self.walk(&t.levels[walks.level[i] as usize], t.wrap, &walks.get(i));
-        }
+    fn ellipses(self, _: &Texture, _: impl Run, _: &Limits, _: &mut [Premul]) -> bool {
+        false
     }
 }
 
@@ -62,17 +63,12 @@ impl<S: Simd> Engine for Vector<S> {
     }
 
     #[inline(always)]
-    fn walk_all(
-        self,
-        t: &Texture,
-        walks: &Walks,
-        sheet: &mut Sheet,
-        out: &mut [[f32; 4]; ABREAST],
-    ) {
+    fn ellipses(self, t: &Texture, run: impl Run, limits: &Limits, out: &mut [Premul]) -> bool {
         self.0.vectorize(
             #[inline(always)]
-            || crate::abreast::walk_all(self.0, t, walks, sheet, out),
+            || crate::batch::fill(self.0, t, run, limits, out),
         );
+        true
     }
 }
 

@@ -3,9 +3,9 @@
 use crate::covariance::Covariance;
 use crate::engine::Engine;
 use crate::gaussian::UNIT;
-use crate::lod::{self, Pick, half_octaves};
+use crate::lod::{self, Pick};
 use crate::point::lerp;
-use crate::walk::Walk;
+use crate::walk::{Place, Walk};
 use crate::{Footprint, LevelMode, Sampler, Texture, walk_float};
 use scumble_geometry::Matrix2;
 
@@ -16,20 +16,23 @@ pub(crate) const BUDGET: f64 = 16_384.0;
 
 /// The least ratio of V₂/s² to the switch of level at which two levels blend: 4^¾, so that the
 /// last quarter of the octave in σ blends.
-const BAND_START: f64 = 2.828_427_124_746_190_3;
+pub(crate) const BAND_START: f32 = 2.828_427;
+
+/// One over the rest of the octave.
+pub(crate) const BAND: f32 = 1.0 / (4.0 - BAND_START);
 
 /// The numbers of a sampler that the ellipse needs, brought into their ranges.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Limits {
     /// 1/a²: the least ratio of the variances.
-    pub(crate) inverse_ratio: f64,
+    pub(crate) inverse_ratio: f32,
     /// R, and its square.
     pub(crate) radius: f32,
-    pub(crate) radius_squared: f64,
+    pub(crate) radius_squared: f32,
     /// 1/s².
-    pub(crate) inverse_least: f64,
+    pub(crate) inverse_least: f32,
     /// The determinant of the largest ellipse.
-    pub(crate) most_det: f64,
+    pub(crate) most_det: f32,
     pub(crate) blend: bool,
     /// ½R², in [`UNIT`]s: weights whose exponent is above it are 0.
     pub(crate) cut: f32,
@@ -46,11 +49,11 @@ impl Limits {
         let circle = core::f64::consts::PI * radius * radius;
         let axes = (4.0 * least * least * ratio).max(BUDGET / circle);
         Self {
-            inverse_ratio: 1.0 / (ratio * ratio),
+            inverse_ratio: (1.0 / (ratio * ratio)) as f32,
             radius: radius as f32,
-            radius_squared: radius * radius,
-            inverse_least: 1.0 / (least * least),
-            most_det: axes * axes,
+            radius_squared: (radius * radius) as f32,
+            inverse_least: (1.0 / (least * least)) as f32,
+            most_det: (axes * axes) as f32,
             blend: s.blend,
             cut: (0.5 * radius * radius) as f32 * UNIT,
         }
@@ -73,11 +76,11 @@ impl<'a> Plan<'a> {
     fn new(t: &'a Texture, f: &'a Footprint, mode: LevelMode, limits: &'a Limits) -> Self {
         if mode != LevelMode::Auto {
             let step = f.longest_step_squared();
-            let pick = lod::pick(step, lod::detail(step), mode, t.levels.len() - 1);
+            let pick = lod::pick(step, lod::detail(step), mode, t.range());
             return Self { t, f, limits, pick, sigma: None };
         }
         let (sigma, minor) = Covariance::of(&f.jacobian, limits.inverse_ratio);
-        let pick = auto_pick(minor * limits.inverse_least, t.levels.len() - 1, limits.blend);
+        let pick = auto_pick(minor * limits.inverse_least, t.range(), limits.blend);
         Self { t, f, limits, pick, sigma: Some(sigma) }
     }
 
@@ -130,20 +133,22 @@ pub(crate) fn cost(t: &Texture, f: &Footprint, mode: LevelMode, limits: &Limits)
     plan.walk(level).texels() + if coarser > 0.0 { plan.walk(level + 1).texels() } else { 0 }
 }
 
-/// The level where σ of the minor axis is between s and 2s, from V₂/s², and how much of the next.
+/// The level where σ of the minor axis is between s and 2s, from V₂/s², and how much of the next; of
+/// those from `first` to `last`.
 #[inline(always)]
-pub(crate) fn auto_pick(minor: f64, last: usize, blend: bool) -> Pick {
-    let level = half_octaves(minor).min(last);
-    // Dividing by 4^l is exact; l is below 32.
-    let ratio = minor / (1u64 << (2 * level.min(31))) as f64;
-    if !blend || level == last || ratio <= BAND_START {
-        return Pick { level, coarser: 0.0 };
-    }
-    let x = (ratio - BAND_START) / (4.0 - BAND_START);
-    Pick { level, coarser: (x * x * (3.0 - 2.0 * x)) as f32 }
+pub(crate) fn auto_pick(minor: f32, [first, last]: [usize; 2], blend: bool) -> Pick {
+    // ⌊log₄ x⌋ from the exponent's bits.
+    let level = (minor.to_bits() >> 23).saturating_sub(127) as usize / 2;
+    let level = level.max(first).min(last);
+    // Divided by 4^l, which is exact: levels of pyramids are below 30.
+    let ratio = minor * f32::from_bits((127 - 2 * level.min(62) as u32) << 23);
+    let x = (ratio - BAND_START) * BAND;
+    let blends = blend && level < last && x > 0.0;
+    Pick { level: level - first, coarser: if blends { x * x * (3.0 - 2.0 * x) } else { 0.0 } }
 }
 
-/// The walk over an ellipse, given in texels of the level.
+/// The walk over an ellipse about (u, v), given in texels of the image, the ellipse in those of the
+/// level.
 #[inline(always)]
 pub(crate) fn walk_in(
     t: &Texture,
@@ -154,6 +159,8 @@ pub(crate) fn walk_in(
     limits: &Limits,
 ) -> Walk {
     let frame = &t.levels[index].frame;
+    let mut place = Place::new(u, v, frame);
+    let sigma = place.pull_in(sigma, frame, limits);
     let mended = if sigma.needs_mending(frame, limits) { sigma.mend(frame, limits) } else { sigma };
-    Walk::new(u, v, frame, &mended, limits)
+    Walk::new(&place, &mended, limits)
 }

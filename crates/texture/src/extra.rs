@@ -4,10 +4,13 @@
 
 use crate::classic::Classic;
 use crate::radial::Radial;
+use crate::run::{Listed, Run};
+use crate::square::Square;
 use crate::texture::point_mode;
 use crate::{Footprint, Kernel, Magnify, PixelFilter, Sampler, Separable, Texture};
 use crate::{place, point, probes};
 use fearless_simd::dispatch;
+use scumble_geometry::Matrix2;
 use scumble_pixel::Premul;
 
 /// Pixels at a time: the fast path has a start-up cost.
@@ -27,20 +30,20 @@ pub(crate) fn takes(s: &Sampler) -> bool {
 }
 
 /// Samples a run of footprints, compiled for the texture's instructions.
-pub(crate) fn fill(t: &Texture, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mut [Premul]) {
+pub(crate) fn fill(t: &Texture, run: impl Run, s: &Sampler, out: &mut [Premul]) {
     match t.simd.0 {
-        None => fill_impl(t, at, s, out),
-        Some(level) => dispatch!(level, _simd => fill_impl(t, at, s, out)),
+        None => fill_impl(t, run, s, out),
+        Some(level) => dispatch!(level, _simd => fill_impl(t, run, s, out)),
     }
 }
 
 #[inline(always)]
-fn fill_impl(t: &Texture, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mut [Premul]) {
+fn fill_impl(t: &Texture, run: impl Run, s: &Sampler, out: &mut [Premul]) {
     let area = Area::new(s);
     for (chunk, out) in out.chunks_mut(BATCH).enumerate() {
         let mut footprints = [Footprint::point(0.0, 0.0); BATCH];
         for (i, f) in footprints[..out.len()].iter_mut().enumerate() {
-            *f = at(chunk * BATCH + i);
+            *f = run.at(chunk * BATCH + i);
         }
         area.fill(t, &footprints, s, out);
     }
@@ -50,6 +53,7 @@ fn fill_impl(t: &Texture, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mu
 enum Area {
     Gaussian,
     Radial(Radial),
+    Square(Square),
     Classic(Classic),
     /// At most so many.
     Probes(u32),
@@ -73,6 +77,7 @@ impl Area {
         match (s.kernel, s.magnify) {
             (_, Magnify::Radial(_)) => Self::Radial(Radial::new(s)),
             (Kernel::Gaussian, _) => Self::Gaussian,
+            (Kernel::Box, _) => Self::Square(Square::new(s)),
             _ => Self::Radial(Radial::new(s)),
         }
     }
@@ -83,7 +88,7 @@ impl Area {
         let mut near = [0.0f32; BATCH];
         if s.magnify.is_apart() && !matches!(self, Self::Separable(_)) {
             for (near, f) in near.iter_mut().zip(footprints) {
-                *near = s.magnify.nearness(t.nearer(f).major_squared());
+                *near = s.magnify.nearness(in_first(t, f).major_squared());
             }
         }
         let near = &near[..out.len()];
@@ -103,7 +108,7 @@ impl Area {
         match self {
             Self::Gaussian => {
                 let s = Sampler { magnify: Magnify::None, ..*s };
-                t.fill_fast(|i| footprints[i], &s, out);
+                t.fill_fast(Listed(footprints), &s, out);
             }
             Self::Separable(kernel) => {
                 let mode = point_mode(s);
@@ -114,6 +119,7 @@ impl Area {
                 }
             }
             Self::Radial(radial) => each(t, footprints, out, |f| radial.sample(t, f)),
+            Self::Square(square) => each(t, footprints, out, |f| square.sample(t, f)),
             Self::Classic(classic) => each(t, footprints, out, |f| classic.sample(t, f)),
             Self::Probes(most) => {
                 let mode = point_mode(s);
@@ -141,8 +147,17 @@ fn each(
 /// The magnified texture under a footprint.
 #[inline(always)]
 fn magnified(t: &Texture, f: &Footprint, magnify: Magnify) -> [f32; 4] {
-    let f = t.nearer(f);
+    let f = in_first(t, &t.nearer(f));
     if f.is_finite() { magnify.sample(&t.levels[0], t.wrap, &f) } else { t.average().0 }
+}
+
+/// A footprint in texels of the first level that is kept: what can be magnified is that one.
+#[inline(always)]
+fn in_first(t: &Texture, f: &Footprint) -> Footprint {
+    let [su, sv] = t.levels[0].frame.scale;
+    let Matrix2 { a, b, c, d } = f.jacobian;
+    let jacobian = Matrix2::new(a * su, b * su, c * sv, d * sv);
+    Footprint { u: f.u * su, v: f.v * sv, jacobian }
 }
 
 /// a + (b − a)·part, no brighter than its alpha.
@@ -157,7 +172,7 @@ pub(crate) fn cost(t: &Texture, f: &Footprint, s: &Sampler) -> usize {
     if let Area::Separable(kernel) = area {
         return place::cost(t, f, point_mode(s), kernel);
     }
-    let near = s.magnify.nearness(f.major_squared());
+    let near = s.magnify.nearness(in_first(t, f).major_squared());
     let magnified = if near > 0.0 { s.magnify.texels() } else { 0 };
     if near >= 1.0 {
         return magnified;
@@ -170,6 +185,7 @@ pub(crate) fn cost(t: &Texture, f: &Footprint, s: &Sampler) -> usize {
             Area::Separable(_) => 0,
             Area::Gaussian => t.cost_fast(f, &Sampler { magnify: Magnify::None, ..*s }),
             Area::Radial(radial) => radial.cost(t, f),
+            Area::Square(square) => square.cost(t, f),
             Area::Classic(classic) => classic.cost(t, f),
             Area::Probes(most) => probes::cost(t, f, point_mode(s), most),
         }

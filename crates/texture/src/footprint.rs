@@ -50,12 +50,13 @@ impl Footprint {
         (self.u.abs() < f64::INFINITY) & (self.v.abs() < f64::INFINITY)
     }
 
-    /// Whether every component of the Jacobian is within what the formulas hold.
+    /// Whether the components of the Jacobian are within what the formulas hold, all together.
     #[inline(always)]
     pub(crate) fn is_bounded(&self) -> bool {
-        // A comparison with NaN is false.
         let Matrix2 { a, b, c, d } = self.jacobian;
-        (a.abs() <= FAR) & (b.abs() <= FAR) & (c.abs() <= FAR) & (d.abs() <= FAR)
+        let [a, b, c, d] = [a as f32, b as f32, c as f32, d as f32];
+        // A comparison with NaN is false.
+        (a.abs() + b.abs()) + (c.abs() + d.abs()) <= FAR as f32
     }
 
     /// The square of the major axis of the ellipse, s₁².

@@ -1,5 +1,4 @@
 use crate::texel::ROUNDER;
-use fearless_simd::{Simd, f32x16, i16x16, i32x16, prelude::*};
 
 /// Exponents are given to [`weight`] in this unit, which makes the largest power's coefficient 1.
 pub(crate) const UNIT: f32 = 0.089_536_875;
@@ -24,24 +23,32 @@ pub(crate) fn weight(z: f32) -> i32 {
     (p4 * p4 + ROUNDER).to_bits() as i32 - ROUNDER.to_bits() as i32
 }
 
-/// [`weight`] at sixteen exponents, and 0 where they are above `cut`: in the low halves of the lanes.
-#[inline(always)]
-pub(crate) fn weight_bits<S: Simd>(simd: S, z: f32x16<S>, cut: f32x16<S>) -> i32x16<S> {
-    let c = |k: usize| f32x16::splat(simd, C[k]);
-    let p = c(0) - z * (c(1) - z * (c(2) - z));
-    let p2 = p * p;
-    let p4 = p2 * p2;
-    let weight = z.simd_le(cut).select(p4 * p4, f32x16::splat(simd, 0.0));
-    // The rounder has nothing in the low half of its bits.
-    (weight + ROUNDER).bitcast::<i32x16<S>>()
-}
+/// The same in lanes.
+pub(crate) mod lanes {
+    use super::C;
+    use crate::texel::ROUNDER;
+    use fearless_simd::{Simd, f32x16, i16x16, i32x16, prelude::*};
 
-/// The same, without what is above them.
-#[inline(always)]
-pub(crate) fn weights<S: Simd>(simd: S, z: f32x16<S>, cut: f32) -> i16x16<S> {
-    let bits = weight_bits(simd, z, f32x16::splat(simd, cut));
-    let (low, _) = bits.narrow(bits).split();
-    low
+    /// [`weight`](super::weight) before it is rounded, and 0 where z is above `cut`.
+    #[inline(always)]
+    pub(crate) fn weight<S: Simd>(simd: S, z: f32x16<S>, cut: f32x16<S>) -> f32x16<S> {
+        let p = f32x16::splat(simd, C[2]) - z;
+        let p = f32x16::splat(simd, C[1]) - z * p;
+        let p = f32x16::splat(simd, C[0]) - z * p;
+        let p2 = p * p;
+        let p4 = p2 * p2;
+        z.simd_le(cut).select(p4 * p4, f32x16::splat(simd, 0.0))
+    }
+
+    /// Sixteen weights, without those above `cut`.
+    #[inline(always)]
+    pub(crate) fn weights<S: Simd>(simd: S, z: f32x16<S>, cut: f32) -> i16x16<S> {
+        let weight = weight(simd, z, f32x16::splat(simd, cut));
+        // The rounder has nothing in the low half of its bits.
+        let bits = (weight + ROUNDER).bitcast::<i32x16<S>>();
+        let (low, _) = bits.narrow(bits).split();
+        low
+    }
 }
 
 #[cfg(test)]

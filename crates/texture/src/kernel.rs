@@ -18,7 +18,7 @@ use crate::math::sqrt32;
 /// | [`Triangle`](Kernel::Triangle) | 1 | cheap and a little sharper |
 /// | [`Mitchell`](Kernel::Mitchell) | 2 | sharper, with faint halos |
 /// | [`Lanczos2`](Kernel::Lanczos2), [`Lanczos3`](Kernel::Lanczos3) | 2, 3 | the sharpest, with halos |
-/// | [`Box`](Kernel::Box) | √½ | comparison: it aliases |
+/// | [`Box`](Kernel::Box) | – | the mean over the pixel's square, to compare with area averaging |
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Kernel {
     /// e^(−2r²): σ = ½.
@@ -35,7 +35,10 @@ pub enum Kernel {
     Lanczos2,
     /// sinc r under the main lobe of sinc(r/3).
     Lanczos3,
-    /// 1 within r = √½, the least circle that always holds the centre of a texel.
+    /// The mean of the bilinear surface over the pixel's square, a parallelogram in the texture, on a grid of
+    /// places: exact, several times slower than the ellipses, and it aliases as squares do. Where a radial
+    /// weight is asked for ([`Magnify::Radial`](crate::Magnify::Radial), the classic filter), 1 within
+    /// r = √½, the least circle that always holds the centre of a texel.
     Box,
     /// One's own.
     Own(&'static RadialFilter),

@@ -2,9 +2,10 @@ use crate::pyramid::plan::Span;
 use crate::texel::{Cell, STEP, Texel, color, of_color, steps};
 use crate::{TextureError, Wrap};
 use alloc::{vec, vec::Vec};
+use scumble_pixel::ImageView;
 
 /// One level, or a part of it: rows of premultiplied RGBA in the working space, [`stride`] texels from
-/// row to row.
+/// row to row, with an apron of [`APRON`] texels on every side that holds what [`Wrap`] puts there.
 ///
 /// Indices of texels are those of the whole level. Of a part, the nearest texel that is kept stands for
 /// those that are not.
@@ -32,18 +33,24 @@ pub(crate) struct Level {
 /// Where a level stands in its pyramid, each number per axis.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Frame {
-    /// From texels of level 0 to texels of this one. Not 2^−l where a size was odd.
+    /// From texels of the image to texels of this level. Not 2^−l where a size was odd.
     pub(crate) scale: [f64; 2],
-    /// The variance that the pyramid has added so far, in squared texels of level 0.
-    pub(crate) blurred: [f64; 2],
+    /// Its products: with itself along u, across, along v; and the product of the first and the last.
+    pub(crate) products: [f32; 4],
+    /// The variance that the pyramid has added so far, in squared texels of the image.
+    pub(crate) blurred: [f32; 2],
     /// How far an ellipse may reach from its centre: no bound, except along an axis of one texel,
     /// where there is nothing to see. Anywhere else, an ellipse that is cut short of its length
     /// aliases: over a repeated texture it may well cross many repeats.
-    pub(crate) most: [f64; 2],
-    /// From where and to where a walk takes the short way: what is kept; nowhere if an index would
-    /// not fit 31 bits, and everywhere over tiles that [`Level::mask`] serves.
-    pub(crate) low: [f64; 2],
-    pub(crate) high: [f64; 2],
+    pub(crate) most: [f32; 2],
+    /// The first and the last texel that a walk reads in place: those that are kept and the apron;
+    /// none if an index would not fit 31 bits, and all of a tile that [`Level::mask`] serves.
+    pub(crate) low: [i32; 2],
+    pub(crate) high: [i32; 2],
+    /// The last texel of the level.
+    pub(crate) last: [i32; 2],
+    /// Whether beyond the level there is nothing but the texels at its edge, or one colour.
+    pub(crate) ends: bool,
 }
 
 /// The largest side of a texture, in texels.
@@ -52,9 +59,9 @@ pub(crate) const LARGEST: usize = 1 << 29;
 /// Texels of the largest level that a walk takes the short way in.
 const SHORT: usize = 1 << 31;
 
-/// Texels that follow the last of a row: in a tile the first ones again, so that a run that begins
-/// in a row can be read in one piece. [`LANES`](crate::walk::LANES) less one.
-pub(crate) const APRON: usize = crate::walk::LANES - 1;
+/// Texels around those that are kept: so many that most ellipses at an edge lie within, and those beyond
+/// it can be taken to lie there.
+pub(crate) const APRON: usize = 8;
 
 /// Texels from one row of a level to the next.
 ///
@@ -62,8 +69,13 @@ pub(crate) const APRON: usize = crate::walk::LANES - 1;
 /// into different sets of it; with the powers of two that textures like to be, they would all fall into
 /// one and push each other out. Narrow levels are left alone.
 pub(crate) fn stride(width: usize) -> usize {
-    let wide = width.saturating_add(APRON);
+    let wide = width.saturating_add(2 * APRON);
     if width < 64 { wide } else { (wide.div_ceil(8) | 1).saturating_mul(8) }
+}
+
+/// Texels that a part of a level takes with its apron; `None` if that overflows.
+pub(crate) fn texels_kept(part: [Span; 2]) -> Option<usize> {
+    stride(part[0].len()).checked_mul(part[1].len().checked_add(2 * APRON)?)
 }
 
 /// Memory of so many texels. Of the system's pages those that are never written cost nothing.
@@ -86,16 +98,22 @@ impl Level {
         let too_large = TextureError::TooLarge { width, height };
         let [columns, rows] = part;
         let stride = stride(columns.len());
-        let len = stride.checked_mul(rows.len()).ok_or(too_large)?;
+        let len = texels_kept(part).ok_or(too_large)?;
         len.checked_mul(size_of::<T>()).ok_or(too_large)?;
         let old = old.as_mut().map(|old| core::mem::take(T::memory(old))).unwrap_or_default();
-        let most = [width, height].map(|n| if n == 1 { 2.5 } else { f64::INFINITY });
-        let low = part.map(|span| span.start as f64);
-        let high = part.map(|span| if len < SHORT { span.end as f64 } else { -1.0 });
-        let frame = Frame { scale: [1.0; 2], blurred: [0.0; 2], most, low, high };
+        let most = [width, height].map(|n| if n == 1 { 2.5 } else { f32::INFINITY });
+        // Sides are below 2²⁹.
+        let last = [width, height].map(|n| n as i32 - 1);
+        let apron = APRON as i32;
+        let (mut low, mut high) = ([i32::MAX; 2], [i32::MIN; 2]);
+        if len < SHORT {
+            low = part.map(|span| span.start as i32 - apron);
+            high = part.map(|span| span.end as i32 - 1 + apron);
+        }
+        let frame = Frame { scale: [1.0; 2], most, low, high, last, ..Frame::default() };
         // Whatever wraps around here wraps back where it is taken off.
-        let base =
-            (rows.start as i32).wrapping_mul(stride as i32).wrapping_add(columns.start as i32);
+        let [x0, y0] = [columns, rows].map(|span| span.start as i32 - apron);
+        let base = y0.wrapping_mul(stride as i32).wrapping_add(x0);
         let mut level = Self {
             width,
             height,
@@ -116,31 +134,62 @@ impl Level {
         Ok(level)
     }
 
-    /// This level as one over a base of the given size, made by steps that add `step` squared texels
+    /// This level as one over an image of the given size, made by steps that add `step` squared texels
     /// of variance each: m = step·(4^l − 1)/3, with 2^l the true ratio of the sizes.
-    pub(crate) fn over(mut self, base: [usize; 2], step: f64) -> Self {
-        let scale = [self.width as f64 / base[0] as f64, self.height as f64 / base[1] as f64];
+    pub(crate) fn over(mut self, image: [usize; 2], step: f64) -> Self {
+        let scale = [self.width as f64 / image[0] as f64, self.height as f64 / image[1] as f64];
+        let [su, sv] = scale;
         self.frame.scale = scale;
-        self.frame.blurred = scale.map(|s| step * (1.0 / (s * s) - 1.0) / 3.0);
+        self.frame.products = [su * su, su * sv, sv * sv, su * su * sv * sv].map(|p| p as f32);
+        self.frame.blurred = scale.map(|s| (step * (1.0 / (s * s) - 1.0) / 3.0) as f32);
         self
     }
 
-    /// Makes a filled level a tile: rows get their apron, and walks over powers of two go on for
-    /// ever.
-    pub(crate) fn make_tile(&mut self) {
-        let Self { width, height, stride, part, .. } = *self;
-        let columns = part[0].len();
-        // Floats are read one by one where they wrap.
-        for row in self.texels.chunks_exact_mut(stride) {
+    /// Fills the apron of a filled level with what lies there, and makes a tile whose sides are powers
+    /// of two go on for ever.
+    pub(crate) fn seal(&mut self, wrap: Wrap) {
+        self.frame.ends = matches!(wrap, Wrap::Clamp | Wrap::Constant(_));
+        if self.is_float() {
+            self.fill_apron::<[f32; 4]>(wrap);
+        } else {
+            self.fill_apron::<Texel>(wrap);
+        }
+        let Self { width, height, .. } = *self;
+        let short = self.frame.low[0] < self.frame.high[0];
+        let even = width.is_power_of_two() && height.is_power_of_two();
+        if wrap == Wrap::Repeat && short && even && self.is_whole() {
+            self.mask = [width, height].map(|n| n as i32 - 1);
+            self.frame.low = [i32::MIN; 2];
+            self.frame.high = [i32::MAX; 2];
+        }
+    }
+
+    fn fill_apron<T: Cell>(&mut self, wrap: Wrap) {
+        let Self { width, height, stride, part: [columns, rows], .. } = *self;
+        let border = T::of_color(wrap.border());
+        let apron = APRON as i32;
+        // What stands at index `i` of an axis with `n` texels, as a place among those that are kept.
+        let place =
+            |i: i32, span: Span, n: usize| wrap.resolve(i, n).map(|i| span.place(i) + APRON);
+        let beside = |from: i32| -> [Option<usize>; APRON] {
+            core::array::from_fn(|i| place(from + i as i32, columns, width))
+        };
+        let left = beside(columns.start as i32 - apron);
+        let right = beside(columns.end as i32);
+        let memory = T::memory(self);
+        for row in memory.chunks_exact_mut(stride).skip(APRON).take(rows.len()) {
             for i in 0..APRON {
-                row[columns + i] = row[if columns == width { i % columns } else { columns - 1 }];
+                row[i] = left[i].map_or(border, |from| row[from]);
+                row[APRON + columns.len() + i] = right[i].map_or(border, |from| row[from]);
             }
         }
-        let short = self.frame.high[0] > 0.0;
-        if short && self.is_whole() && width.is_power_of_two() && height.is_power_of_two() {
-            self.mask = [width, height].map(|n| n as i32 - 1);
-            self.frame.low = [f64::NEG_INFINITY; 2];
-            self.frame.high = [f64::INFINITY; 2];
+        let above = (0..APRON).map(|i| (i, rows.start as i32 - apron + i as i32));
+        let below = (0..APRON).map(|i| (APRON + rows.len() + i, (rows.end + i) as i32));
+        for (to, y) in above.chain(below) {
+            match place(y, rows, height) {
+                Some(from) => memory.copy_within(from * stride..(from + 1) * stride, to * stride),
+                None => memory[to * stride..][..stride].fill(border),
+            }
         }
     }
 
@@ -149,22 +198,35 @@ impl Level {
         self.part == [Span::all(self.width), Span::all(self.height)]
     }
 
-    /// Where row `y` of the level, which must exist, is kept; or the row that stands for it.
+    /// Where the columns that are kept begin in the memory of row `y` of the level, which must exist, or
+    /// of the row that stands for it.
     #[inline(always)]
     fn start(&self, y: usize) -> usize {
-        self.part[1].place(y) * self.stride
+        (self.part[1].place(y) + APRON) * self.stride + APRON
     }
 
-    /// The columns of row `y`, which must exist, that are kept, and their apron.
+    /// The columns of row `y`, which must exist, that are kept, and the apron on both sides.
     #[inline(always)]
     pub(crate) fn row_with_apron(&self, y: usize) -> &[Texel] {
-        &self.texels[self.start(y)..][..self.part[0].len() + APRON]
+        &self.texels[self.start(y) - APRON..][..self.part[0].len() + 2 * APRON]
     }
 
-    /// The columns of row `y`, which must exist, that are kept.
+    /// The texels that are kept as an image without a place.
+    pub(crate) fn view<'a, T>(&self, memory: &'a [T]) -> Option<ImageView<'a, T>> {
+        let [columns, rows] = self.part.map(Span::len);
+        let first = APRON * self.stride + APRON;
+        ImageView::new(columns, rows, self.stride, memory.get(first..)?).ok()
+    }
+
+    /// Whether the texels from (x0, y0) to (x1, y1) are kept or in the apron.
     #[inline(always)]
-    pub(crate) fn row(&self, y: usize) -> &[Texel] {
-        &self.texels[self.start(y)..][..self.part[0].len()]
+    pub(crate) fn holds(&self, [x0, y0]: [i32; 2], [x1, y1]: [i32; 2]) -> bool {
+        let apron = APRON as i32;
+        let [columns, rows] = self.part;
+        (x0 >= columns.start as i32 - apron)
+            & (y0 >= rows.start as i32 - apron)
+            & (x1 < columns.end as i32 + apron)
+            & (y1 < rows.end as i32 + apron)
     }
 
     /// The same to write to, if they are kept.
@@ -173,10 +235,11 @@ impl Level {
         rows.holds(y).then(|| T::memory(self).get_mut(start..start + columns.len()))?
     }
 
-    /// Where texel (x, y), which is kept, stands in `texels`; elsewhere something of no meaning.
+    /// Where texel (x, y), which [`Level::holds`], stands in its memory; elsewhere something of no
+    /// meaning.
     #[inline(always)]
     pub(crate) fn index(&self, x: i32, y: i32) -> usize {
-        let [columns, rows] = self.part.map(|span| span.start as i32);
+        let [columns, rows] = self.part.map(|span| span.start as i32 - APRON as i32);
         let (y, x) = (y.wrapping_sub(rows), x.wrapping_sub(columns));
         (y as u32 as usize).wrapping_mul(self.stride).wrapping_add(x as u32 as usize)
     }

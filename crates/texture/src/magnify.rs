@@ -37,7 +37,7 @@ pub enum Magnify {
 const MAGNIFIED: f64 = 0.75;
 
 /// And from which on it is minified.
-const MINIFIED: f64 = 1.5;
+pub(crate) const MINIFIED: f64 = 1.5;
 
 /// How magnified a footprint is, from the square of its major axis: 1 up to [`MAGNIFIED`], 0 from
 /// [`MINIFIED`] on.

@@ -52,9 +52,11 @@ pub(crate) fn ceil(x: f64) -> f64 {
 /// Where `as` saturates, which takes a branch for each number, this is one addition.
 #[inline(always)]
 pub(crate) fn whole(x: f64) -> i32 {
-    // 1.5·2⁵²: floats of this size hold whole numbers only.
-    (x + 6_755_399_441_055_744.0).to_bits() as i32
+    (x + WHOLE).to_bits() as i32
 }
+
+/// 1.5·2⁵²: floats of this size hold whole numbers only.
+pub(crate) const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 /// log₂ x of a normal positive x; the absolute error is below 1e−10.
 ///

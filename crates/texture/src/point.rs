@@ -4,6 +4,7 @@ use crate::engine::Engine;
 use crate::level::Level;
 use crate::lod::{self, Pick};
 use crate::math::{floor, whole};
+use crate::run::Run;
 use crate::texel::{Texel, steps};
 use crate::{Footprint, LevelMode, Texture, Wrap};
 use scumble_pixel::Premul;
@@ -119,14 +120,13 @@ impl Point for Bilinear {
     }
 }
 
-/// Whether the squares of `side` texels from (x, y) on are kept, all of them.
+/// Whether the squares of `side` texels from (x, y) on are kept or in the apron, all of them.
 #[inline(always)]
 fn holds<const N: usize>(level: &Level, x: &[i32; N], y: &[i32; N], side: i32) -> bool {
-    let [left, top] = level.part.map(|span| span.start as i32);
-    let [right, bottom] = level.part.map(|span| span.end as i32 - side);
     let mut inside = true;
     for i in 0..N {
-        inside &= (x[i] >= left) & (y[i] >= top) & (x[i] <= right) & (y[i] <= bottom);
+        // Places are brought near, so that this fits.
+        inside &= level.holds([x[i], y[i]], [x[i] + side - 1, y[i] + side - 1]);
     }
     inside
 }
@@ -155,7 +155,7 @@ const BATCH: usize = 16;
 pub(crate) fn fill(
     t: &Texture,
     engine: impl Engine,
-    at: impl Fn(usize) -> Footprint,
+    run: impl Run,
     mode: LevelMode,
     filter: impl Point,
     out: &mut [Premul],
@@ -167,7 +167,7 @@ pub(crate) fn fill(
             t,
             mode,
             #[inline(always)]
-            |i| at(first + i),
+            |i| run.at(first + i),
         );
         if places.together() {
             places.fill(t, engine, filter, out);
@@ -183,7 +183,7 @@ pub(crate) fn fill(
             t,
             mode,
             #[inline(always)]
-            |_| at(first + i),
+            |_| run.at(first + i),
         );
         place.fill(t, engine, filter, core::slice::from_mut(out));
     }
@@ -202,7 +202,7 @@ struct Places<const N: usize> {
 impl<const N: usize> Places<N> {
     #[inline(always)]
     fn new(t: &Texture, mode: LevelMode, at: impl Fn(usize) -> Footprint) -> Self {
-        let last = t.levels.len() - 1;
+        let range = t.range();
         let blends = mode == LevelMode::Linear;
         let mut places =
             Self { u: [0.0; N], v: [0.0; N], level: [0; N], coarser: [0.0; N], blends };
@@ -217,7 +217,7 @@ impl<const N: usize> Places<N> {
         let mut pick = |mode| {
             for (i, step) in steps.iter().enumerate() {
                 let detail = if mode == LevelMode::Linear { lod::detail(*step) } else { 0.0 };
-                let Pick { level, coarser } = lod::pick(*step, detail, mode, last);
+                let Pick { level, coarser } = lod::pick(*step, detail, mode, range);
                 places.level[i] = level as u32;
                 places.coarser[i] = coarser;
             }

@@ -132,7 +132,7 @@ pub(crate) fn sample(t: &Texture, f: &Footprint, mode: LevelMode, most: u32) -> 
         let level = &t.levels[index];
         let [su, sv] = level.frame.scale;
         row.average(|spot| {
-            let f = t.brought(spot);
+            let f = t.nearer(spot);
             place::bilinear(level, t.wrap, f.u * su, f.v * sv)
         })
     };

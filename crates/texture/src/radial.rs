@@ -40,12 +40,13 @@ impl Radial {
         // The larger of two kernels, whichever it is on the spot: the level's budget is for both.
         let radius = 2.0 * Mixture::new(s, 0.5).radius();
         let circle = core::f64::consts::PI * radius * radius;
-        let widest = 4.0 / (limits.inverse_least * sqrt(limits.inverse_ratio));
+        let ratio = sqrt(f64::from(limits.inverse_ratio));
+        let widest = 4.0 / (f64::from(limits.inverse_least) * ratio);
         let axes = widest.max(BUDGET / circle);
         let limits = Limits {
             radius: radius as f32,
-            radius_squared: radius * radius,
-            most_det: axes * axes,
+            radius_squared: (radius * radius) as f32,
+            most_det: (axes * axes) as f32,
             ..limits
         };
         // Two kernels share one ellipse, so it must suit any.
@@ -77,14 +78,13 @@ impl Radial {
         each: impl Fn(&Level, &Ellipse) -> R,
         join: impl FnOnce(R, R, f32) -> R,
     ) -> R {
-        let last = t.levels.len() - 1;
         let step = f.longest_step_squared();
         let (sigma, minor) = self.unit(&f.jacobian);
         let Pick { level, coarser } = match self.mode {
             LevelMode::Auto => {
-                auto_pick(minor * self.limits.inverse_least, last, self.limits.blend)
+                auto_pick(minor * self.limits.inverse_least, t.range(), self.limits.blend)
             }
-            mode => lod::pick(step, lod::detail(step), mode, last),
+            mode => lod::pick(step, lod::detail(step), mode, t.range()),
         };
         let within = |index: usize| {
             let level = &t.levels[index];
@@ -109,22 +109,22 @@ impl Radial {
     /// The unit circle in texels, as the covariance of something with a σ of one half; and its
     /// variance along the minor axis.
     #[inline(always)]
-    fn unit(&self, jacobian: &Matrix2) -> (Covariance, f64) {
+    fn unit(&self, jacobian: &Matrix2) -> (Covariance, f32) {
         let axes = jacobian.axes();
         let widen = |s: f64| match self.footing {
             Footing::Variance(v) => s * s + RECONSTRUCTION / v,
             Footing::Grid => (s * s).max(1.0),
         };
         let v1 = 0.25 * widen(axes.major);
-        let v2 = (0.25 * widen(axes.minor)).max(v1 * self.limits.inverse_ratio);
+        let v2 = (0.25 * widen(axes.minor)).max(v1 * f64::from(self.limits.inverse_ratio));
         let [x, y] = axes.direction;
         let sigma = Covariance {
-            uu: v1 * x * x + v2 * y * y,
-            uv: (v1 - v2) * x * y,
-            vv: v1 * y * y + v2 * x * x,
-            det: v1 * v2,
+            uu: (v1 * x * x + v2 * y * y) as f32,
+            uv: ((v1 - v2) * x * y) as f32,
+            vv: (v1 * y * y + v2 * x * x) as f32,
+            det: (v1 * v2) as f32,
         };
-        (sigma, v2)
+        (sigma, v2 as f32)
     }
 
     /// The weighted average over an ellipse, about the texel nearest to its centre, so that a
@@ -158,10 +158,12 @@ impl Ellipse {
     /// From the covariance of the unit circle (σ = ½) and the kernel's radius.
     #[inline(always)]
     fn new(centre: [f64; 2], sigma: &Covariance, radius: f64) -> Self {
-        let (vv, across) = (4.0 * sigma.vv, 4.0 * sigma.det / sigma.vv);
+        let [uv, vv, det] = [sigma.uv, sigma.vv, sigma.det].map(f64::from);
+        let slope = uv / vv;
+        let (vv, across) = (4.0 * vv, 4.0 * det / vv);
         Self {
             centre,
-            slope: sigma.uv / sigma.vv,
+            slope,
             rise: radius * sqrt(vv),
             run: radius * sqrt(across),
             row_scale: 1.0 / vv,

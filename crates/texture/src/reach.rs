@@ -2,8 +2,12 @@
 
 use crate::covariance::Covariance;
 use crate::ewa::{Limits, auto_pick};
+use crate::magnify::MINIFIED;
 use crate::{Kernel, LevelMode, Levels, Magnify, PixelFilter, Sampler};
 use scumble_geometry::Matrix2;
+
+/// What single precision may take an axis to be too long or too short, and more.
+const ROUNDING: f64 = 1e-6;
 
 /// More than any pyramid has.
 const FARTHEST: usize = 63;
@@ -12,20 +16,21 @@ impl Sampler {
     /// The levels to build for footprints whose axes have bounds: for a picture of which it is known
     /// beforehand how near the texture is.
     ///
-    /// `most` are upper bounds of the axes (s₁, s₂) of
+    /// `least` and `most` are lower and upper bounds of the axes (s₁, s₂) of
     /// [`Matrix2::axes`](scumble_geometry::Matrix2::axes), the major first, in texels of the image per
-    /// pixel. No coarser level than those of the result is read. Finer ones than are read are among them:
-    /// a texture without its level 0 takes its first level for the image, which is not the same.
+    /// pixel. No other level than those of the result is read, so samples are those of the whole
+    /// pyramid. Lower bounds that are not known are 0.
     ///
     /// ```
     /// use scumble_texture::{Levels, Sampler};
     ///
-    /// // Magnified, no pyramid is read; at an eighth of the size, two levels beside the image.
-    /// assert_eq!(Sampler::DEFAULT.levels_for([0.3, 0.3]), Levels::BaseOnly);
-    /// assert_eq!(Sampler::DEFAULT.levels_for([8.0, 8.0]), Levels::Range { first: 0, last: 2 });
+    /// // Magnified, no pyramid is read; at an eighth of the size, only level 3.
+    /// let levels = |s| Sampler::FAST.levels_for([s, s], [s, s]);
+    /// assert_eq!(levels(0.3), Levels::BaseOnly);
+    /// assert_eq!(levels(8.0), Levels::Range { first: 3, last: 3 });
     /// ```
     #[must_use]
-    pub fn levels_for(&self, most: [f64; 2]) -> Levels {
+    pub fn levels_for(&self, least: [f64; 2], most: [f64; 2]) -> Levels {
         if self.level == LevelMode::Zero {
             return Levels::BaseOnly;
         }
@@ -34,17 +39,24 @@ impl Sampler {
             && self.kernel == Kernel::Gaussian
             && !matches!(self.magnify, Magnify::Radial(_));
         let last = if by_ellipse && most.iter().all(|s| s.is_finite()) {
-            let (last, blends) = self.level_of(most);
+            let (last, blends) = self.level_of(most.map(|s| s * (1.0 + ROUNDING)));
             last + usize::from(blends)
         } else if self.pixel != PixelFilter::Classic && most[0] <= 1.0 {
             0
         } else {
             FARTHEST
         };
-        match last {
-            0 => Levels::BaseOnly,
-            FARTHEST.. => Levels::All,
-            last => Levels::Range { first: 0, last },
+        // What is magnified on its own reads the image.
+        let minified = !self.magnify.is_apart() || least[0] >= MINIFIED;
+        let first = if by_ellipse && minified {
+            self.level_of(least.map(|s| s * (1.0 - ROUNDING))).0.min(last)
+        } else {
+            0
+        };
+        match (first, last) {
+            (_, 0) => Levels::BaseOnly,
+            (0, FARTHEST..) => Levels::All,
+            (first, last) => Levels::Range { first, last },
         }
     }
 
@@ -53,7 +65,7 @@ impl Sampler {
         let limits = Limits::new(self);
         let jacobian = Matrix2::new(major.max(0.0), 0.0, 0.0, minor.max(0.0));
         let (_, variance) = Covariance::of(&jacobian, limits.inverse_ratio);
-        let pick = auto_pick(variance * limits.inverse_least, FARTHEST, limits.blend);
+        let pick = auto_pick(variance * limits.inverse_least, [0, FARTHEST], limits.blend);
         (pick.level, pick.coarser > 0.0)
     }
 }
@@ -66,23 +78,36 @@ mod tests {
     fn magnified_is_level_zero_and_the_horizon_is_all() {
         let far = [f64::INFINITY; 2];
         for s in [Sampler::FAST, Sampler::DEFAULT, Sampler::HIGH, Sampler::REFERENCE] {
-            assert_eq!(s.levels_for([0.2, 0.2]), Levels::BaseOnly);
+            assert_eq!(s.levels_for([0.0; 2], [0.2, 0.2]), Levels::BaseOnly);
             for endless in [far, [f64::INFINITY, 0.1], [f64::NAN; 2]] {
-                assert_eq!(s.levels_for(endless), Levels::All);
+                assert_eq!(s.levels_for([0.0; 2], endless), Levels::All);
             }
         }
         let bilinear = Sampler::DEFAULT.with(PixelFilter::Bilinear, LevelMode::Auto);
-        assert_eq!(bilinear.levels_for([1.0, 1.0]), Levels::BaseOnly);
-        assert_eq!(bilinear.levels_for([1.1, 1.0]), Levels::All);
+        assert_eq!(bilinear.levels_for([1.0; 2], [1.0; 2]), Levels::BaseOnly);
+        assert_eq!(bilinear.levels_for([1.0; 2], [1.1, 1.0]), Levels::All);
         let zero = Sampler { level: LevelMode::Zero, ..Sampler::DEFAULT };
-        assert_eq!(zero.levels_for(far), Levels::BaseOnly);
+        assert_eq!(zero.levels_for(far, far), Levels::BaseOnly);
+    }
+
+    #[test]
+    fn levels_that_are_finer_than_all_footprints_are_left_out() {
+        let of = |s: Sampler, least: f64| s.levels_for([least; 2], [20.0; 2]);
+        assert_eq!(of(Sampler::FAST, 20.0), Levels::Range { first: 4, last: 4 });
+        assert_eq!(of(Sampler::FAST, 1.0), Levels::Range { first: 0, last: 4 });
+        // What is magnified on its own reads the image.
+        let sharp = Sampler { magnify: Magnify::CatmullRom, ..Sampler::FAST };
+        assert_eq!(of(sharp, 1.4), Levels::Range { first: 0, last: 4 });
+        assert_eq!(of(sharp, 5.0), of(Sampler::FAST, 5.0));
+        let unknown = Sampler::FAST.levels_for([f64::NAN; 2], [20.0; 2]);
+        assert_eq!(unknown, Levels::Range { first: 0, last: 4 });
     }
 
     #[test]
     fn the_clamp_on_the_axis_ratio_counts() {
         // 64 by 1 is widened to 64 by 4 by a ratio of 16.
-        let thin = Sampler::FAST.levels_for([64.0, 1.0]);
-        assert_eq!(thin, Sampler::FAST.levels_for([64.0, 4.0]));
-        assert_ne!(thin, Sampler::FAST.levels_for([64.0, 64.0]));
+        let of = |axes| Sampler::FAST.levels_for([0.0; 2], axes);
+        assert_eq!(of([64.0, 1.0]), of([64.0, 4.0]));
+        assert_ne!(of([64.0, 1.0]), of([64.0, 64.0]));
     }
 }

@@ -126,9 +126,8 @@ fn bilinear(texture: &Texture, p: DVec2) -> Option<[f64; 4]> {
     if !p.is_finite() {
         return None;
     }
-    let p = texture.in_base(p);
-    let [x, y] = texture.nearer;
-    let (x, y) = (x.bring(p.x) - 0.5, y.bring(p.y) - 0.5);
+    let ([x, y], [su, sv]) = (texture.nearer, level.frame.scale);
+    let (x, y) = (x.bring(p.x) * su - 0.5, y.bring(p.y) * sv - 0.5);
     let (x0, y0) = (floor(x), floor(y));
     let (fx, fy) = (x - x0, y - y0);
     let texel = |i, j| level.texel(x0 as i32 + i, y0 as i32 + j, wrap).map(f64::from);

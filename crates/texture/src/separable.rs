@@ -5,7 +5,6 @@ use crate::Wrap;
 use crate::kernel::{THIRD, cubic, lanczos};
 use crate::level::Level;
 use crate::math::floor;
-use crate::pyramid::plan::Span;
 use crate::texel::color;
 
 /// A kernel for interpolation between texels, applied along columns and then along rows.
@@ -100,9 +99,9 @@ impl Separable {
 /// `N` by `N` texels, the first at (x, y); they may lie outside.
 #[inline(always)]
 fn square<const N: usize>(level: &Level, wrap: Wrap, x: i32, y: i32) -> [[[f32; 4]; N]; N] {
-    let [columns, rows] = level.part;
-    let holds = |span: Span, i: i32| (i >= span.start as i32) & (i <= span.end as i32 - N as i32);
-    if holds(columns, x) & holds(rows, y) {
+    // Places are brought near, so that this fits.
+    let last = N as i32 - 1;
+    if level.holds([x, y], [x + last, y + last]) {
         let first = level.index(x, y);
         let row = |j: usize| level.texels.get(first + j * level.stride..)?.first_chunk::<N>();
         if let (Some(_), Some(_)) = (row(0), row(N - 1)) {

@@ -50,12 +50,7 @@ pub(crate) fn sample(level: &Level, wrap: Wrap, f: &Footprint) -> [f32; 4] {
     let places = Places::new(f);
     let (low, high) = places.reach();
     let [x, y] = places.base;
-    let [columns, rows] = level.part;
-    let inside = (x + low[0] >= columns.start as i32)
-        & (y + low[1] >= rows.start as i32)
-        & (x + high[0] < columns.end as i32)
-        & (y + high[1] < rows.end as i32);
-    if inside {
+    if level.holds([x + low[0], y + low[1]], [x + high[0], y + high[1]]) {
         // Every index is in range; and if it were not, the texel would be black, and no panic.
         let first = level.index(x, y);
         places.average(level.unit(), |x, y| {

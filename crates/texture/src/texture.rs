@@ -3,10 +3,11 @@ use crate::decode::Decoder;
 use crate::engine::{Engine, Scalar, Vector};
 use crate::ewa::{self, Limits};
 use crate::format::{Alpha, Channels, Texels};
-use crate::level::{LARGEST, Level};
+use crate::level::{LARGEST, Level, texels_kept};
 use crate::point::{self, Bilinear, Nearest};
 use crate::pyramid;
-use crate::pyramid::plan::{self, Plan, Span};
+use crate::pyramid::plan::{self, Plan};
+use crate::run::{InRow, Listed, Run};
 use crate::texel::{self, Cell, Texel};
 use crate::wrap::Nearer;
 use crate::{
@@ -15,22 +16,23 @@ use crate::{
 };
 use alloc::vec::Vec;
 use fearless_simd::dispatch;
-use scumble_geometry::{DVec2, Homography, IntRect, Matrix2};
+use scumble_geometry::{DVec2, Homography, IntRect};
 use scumble_pixel::{Image, ImageView, Premul, WorkingSpace};
 
 /// An image made ready to be filtered: its pyramid, premultiplied, in the working space.
 ///
 /// Texels take 8 bytes each (four numbers of 16 bits, in steps of 1/16,320), or 16 as floats
-/// ([`Storage`](crate::Storage)); rows are padded by three to eighteen of them, and all levels together
-/// take a third more than the base: [`Texture::memory_for`] says it before anything is allocated.
+/// ([`Storage`](crate::Storage)); each level has eight more on every side, for what lies beyond its edge,
+/// and all levels together take a third more than the base: [`Texture::memory_for`] says it before
+/// anything is allocated.
 #[derive(Debug, Clone)]
 pub struct Texture {
     /// Those that are kept.
     pub(crate) levels: Vec<Level>,
     /// Columns and rows of the image.
     size: [usize; 2],
-    /// From texels of the image to texels of the first level that is kept.
-    scale: [f64; 2],
+    /// Which level of the pyramid is the first that is kept.
+    pub(crate) first: usize,
     pub(crate) wrap: Wrap,
     space: WorkingSpace,
     average: [f32; 4],
@@ -142,14 +144,11 @@ impl Texture {
             [base, ..] => base.mean(),
             [] => return Err(TextureError::Empty),
         };
-        if wrap == Wrap::Repeat {
-            levels.iter_mut().for_each(Level::make_tile);
-        }
-        let [width, height] = [levels[0].width, levels[0].height];
-        let nearer = [Nearer::new(wrap, width), Nearer::new(wrap, height)];
-        let scale = [width as f64 / size[0] as f64, height as f64 / size[1] as f64];
+        levels.iter_mut().for_each(|level| level.seal(wrap));
+        let first = plan::kept_levels(size, options.levels).start;
+        let nearer = size.map(|n| Nearer::new(wrap, n));
         let simd = Simd::best();
-        Ok(Self { levels, size, scale, wrap, space, average, bounded, nearer, simd })
+        Ok(Self { levels, first, size, wrap, space, average, bounded, nearer, simd })
     }
 
     /// The same texture, sampled with other instructions and the same results.
@@ -191,13 +190,10 @@ impl Texture {
     #[must_use]
     pub fn level(&self, index: usize) -> Option<Image<[f32; 4]>> {
         let level = self.levels.get(index)?;
-        let [columns, rows] = level.part.map(Span::len);
         if level.is_float() {
-            let stored = ImageView::new(columns, rows, level.stride, &level.floats).ok()?;
-            return Some(stored.to_image());
+            return Some(level.view(&level.floats)?.to_image());
         }
-        let stored = ImageView::new(columns, rows, level.stride, &level.texels).ok()?;
-        Some(stored.to_image().map(|t| texel::color(*t)))
+        Some(level.view(&level.texels)?.to_image().map(|t| texel::color(*t)))
     }
 
     /// The texels of a level that are kept, in texels of that level: all unless
@@ -233,7 +229,7 @@ impl Texture {
         for l in levels.start..levels.end {
             let size = plan::size_of_level([width, height], l);
             let part = plan::kept_part([width, height], size, options);
-            let texels = plan::texels_kept(part)?;
+            let texels = texels_kept(part)?;
             bytes = bytes.checked_add(texels.checked_mul(texel)?)?;
         }
         isize::try_from(bytes).ok().map(isize::unsigned_abs)
@@ -248,7 +244,7 @@ impl Texture {
     #[must_use]
     pub fn sample(&self, f: &Footprint, s: &Sampler) -> Premul {
         let mut out = [Premul::TRANSPARENT];
-        self.dispatch(|_| *f, s, &mut out);
+        self.dispatch(Listed(core::slice::from_ref(f)), s, &mut out);
         let [color] = out;
         color
     }
@@ -258,72 +254,53 @@ impl Texture {
     ///
     /// `map` goes from the screen to texels of level 0. The Jacobian is exact at each sample.
     pub fn sample_row(&self, map: &Homography, start: DVec2, s: &Sampler, out: &mut [Premul]) {
-        self.dispatch(
-            #[inline(always)]
-            |i| Footprint::at(map, DVec2::new(start.x + i as f64, start.y)),
-            s,
-            out,
-        );
+        self.dispatch(InRow { map, start }, s, out);
     }
 
     /// The colours of a run of footprints: `out[i]` is what [`Texture::sample`] gives for
     /// `footprints[i]`, to the last bit. The shorter slice ends it.
     pub fn sample_footprints(&self, footprints: &[Footprint], s: &Sampler, out: &mut [Premul]) {
         let count = footprints.len().min(out.len());
-        // Batches are set up whole, so some are asked for that are not there.
-        let at = |i: usize| footprints.get(i).copied().unwrap_or(Footprint::point(0.0, 0.0));
-        self.dispatch(at, s, &mut out[..count]);
+        self.dispatch(Listed(footprints), s, &mut out[..count]);
     }
 
     /// Samples a run of footprints: by the fast paths, or by what is beside them.
     #[inline(always)]
-    fn dispatch(&self, at: impl Fn(usize) -> Footprint, s: &Sampler, out: &mut [Premul]) {
+    fn dispatch(&self, run: impl Run, s: &Sampler, out: &mut [Premul]) {
         if extra::takes(s) {
-            return extra::fill(self, at, s, out);
+            return extra::fill(self, run, s, out);
         }
-        self.fill_fast(at, s, out);
+        self.fill_fast(run, s, out);
     }
 
     /// Runs [`Texture::fill`] compiled for the chosen instructions.
-    pub(crate) fn fill_fast(
-        &self,
-        at: impl Fn(usize) -> Footprint,
-        s: &Sampler,
-        out: &mut [Premul],
-    ) {
+    pub(crate) fn fill_fast(&self, run: impl Run, s: &Sampler, out: &mut [Premul]) {
         match self.simd.0 {
-            None => self.fill(Scalar, at, s, out),
-            Some(level) => {
-                dispatch!(level, simd => self.fill(Vector(simd), at, s, out));
-            }
+            None => self.fill(Scalar, run, s, out),
+            Some(level) => dispatch!(level, simd => self.fill(Vector(simd), run, s, out)),
         }
     }
 
     /// Samples a run of footprints.
     #[inline(always)]
-    fn fill(
-        &self,
-        engine: impl Engine,
-        at: impl Fn(usize) -> Footprint,
-        s: &Sampler,
-        out: &mut [Premul],
-    ) {
+    fn fill(&self, engine: impl Engine, run: impl Run, s: &Sampler, out: &mut [Premul]) {
         match s.pixel {
             PixelFilter::Nearest => {
-                return point::fill(self, engine, at, point_mode(s), Nearest, out);
+                return point::fill(self, engine, run, point_mode(s), Nearest, out);
             }
             PixelFilter::Bilinear => {
-                return point::fill(self, engine, at, point_mode(s), Bilinear, out);
+                return point::fill(self, engine, run, point_mode(s), Bilinear, out);
             }
             _ => (),
         }
         let limits = Limits::new(s);
         let float = self.levels[0].is_float();
-        if s.level == LevelMode::Auto && out.len() >= batch::WORTH && !float {
-            return batch::fill(self, engine, at, &limits, out);
+        let many = s.level == LevelMode::Auto && out.len() >= batch::WORTH && !float;
+        if many && engine.ellipses(self, run, &limits, out) {
+            return;
         }
         for (i, out) in out.iter_mut().enumerate() {
-            let f = self.nearer(&at(i));
+            let f = self.nearer(&run.at(i));
             *out = if f.is_finite() && f.is_bounded() {
                 self.within_range(ewa::sample(self, engine, &f, s.level, &limits))
             } else {
@@ -346,7 +323,7 @@ impl Texture {
             _ => return self.cost_fast(&f, s),
         };
         let step = f.longest_step_squared();
-        let pick = lod::pick(step, lod::detail(step), point_mode(s), self.levels.len() - 1);
+        let pick = lod::pick(step, lod::detail(step), point_mode(s), self.range());
         let two = pick.coarser > 0.0;
         if two { 2 * each } else { each }
     }
@@ -356,25 +333,15 @@ impl Texture {
         if f.is_bounded() { ewa::cost(self, f, s.level, &Limits::new(s)) } else { 0 }
     }
 
-    /// A place in texels of the image, in texels of the first level that is kept.
-    pub(crate) fn in_base(&self, p: DVec2) -> DVec2 {
-        let [su, sv] = self.scale;
-        DVec2::new(p.x * su, p.y * sv)
+    /// The first and the last level of the pyramid that are kept.
+    #[inline(always)]
+    pub(crate) fn range(&self) -> [usize; 2] {
+        [self.first, self.first + self.levels.len() - 1]
     }
 
-    /// The footprint in texels of the first level that is kept, which is what all filters below this
-    /// call level 0, with its centre brought near.
+    /// The footprint with its centre brought near.
     #[inline(always)]
     pub(crate) fn nearer(&self, f: &Footprint) -> Footprint {
-        let [su, sv] = self.scale;
-        let Matrix2 { a, b, c, d } = f.jacobian;
-        let jacobian = Matrix2::new(a * su, b * su, c * sv, d * sv);
-        self.brought(&Footprint { u: f.u * su, v: f.v * sv, jacobian })
-    }
-
-    /// The footprint, which is in texels of the first level that is kept, with its centre brought near.
-    #[inline(always)]
-    pub(crate) fn brought(&self, f: &Footprint) -> Footprint {
         let [u, v] = &self.nearer;
         // A centre that is not finite stays so: ∞ − ∞ and 0·∞ are NaN, and NaN survives the sum.
         let lost = 0.0 * f.u + 0.0 * f.v;

@@ -2,10 +2,10 @@
 //! scalar code; `walk_simd` is the same in vectors.
 
 use crate::Wrap;
-use crate::covariance::Covariance;
+use crate::covariance::{Covariance, LEAST_VARIANCE};
 use crate::ewa::Limits;
 use crate::gaussian::{UNIT, weight};
-use crate::level::{Frame, Level};
+use crate::level::{APRON, Frame, Level};
 use crate::math::{floor, floor32, sqrt32, whole};
 use crate::pyramid::plan::Span;
 use crate::texel::{STEP, Texel, of_color};
@@ -13,9 +13,9 @@ use crate::texel::{STEP, Texel, of_color};
 /// Texels of a row that are read in one piece: a quad.
 pub(crate) const LANES: usize = 4;
 
-/// The determinant up to which an ellipse is [`Walk::small`]. On a grid, a Gaussian whose σ is √0.15 and
+/// The determinant up to which sums of an ellipse's weights times texels fit 31 bits. On a grid, a Gaussian whose σ is √0.15 and
 /// more sums to at most 1.22 times its integral: here to 63,000, times texels of at most 20,400.
-const SMALL: f32 = 4.0;
+pub(crate) const SMALL: f32 = 4.0;
 
 /// An ellipse in one level, ready to be walked.
 ///
@@ -46,10 +46,76 @@ pub(crate) struct Walk {
     pub(crate) cut: f32,
     /// Quads of the widest row.
     pub(crate) groups: i32,
-    /// 1 if every texel of the walk lies inside the level, or in tiles that are as good, else 0.
-    pub(crate) inside: i32,
-    /// 1 if the ellipse is so small that sums of weights times texels fit 31 bits, else 0.
-    pub(crate) small: i32,
+}
+
+/// The centre of an ellipse in the index space of a level, where texels have whole numbers.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place {
+    /// The whole part.
+    pub(crate) x0: i32,
+    pub(crate) y0: i32,
+    /// The rest, in [0, 1].
+    pub(crate) fx: f32,
+    pub(crate) fy: f32,
+}
+
+/// The variance of an ellipse along an axis where all texels are the same.
+pub(crate) const THIN: f32 = 0.16;
+const _: () = assert!(THIN > LEAST_VARIANCE);
+
+/// How far from the level's edge such an ellipse is put: further than its largest reach, 4√0.16, and
+/// with the rest of a quad still in the apron.
+pub(crate) const ASIDE: i32 = 2;
+
+/// The most that is taken for a reach, so that sums with places fit integers.
+pub(crate) const FARTHEST: f32 = 268_435_456.0;
+
+impl Place {
+    /// The place (u, v), in texels of the image, in a level.
+    #[inline(always)]
+    pub(crate) fn new(u: f64, v: f64, frame: &Frame) -> Self {
+        let (u, v) = (u * frame.scale[0] - 0.5, v * frame.scale[1] - 0.5);
+        let (x0, y0) = (floor(u), floor(v));
+        Self { x0: whole(x0), y0: whole(y0), fx: (u - x0) as f32, fy: (v - y0) as f32 }
+    }
+
+    /// Where an ellipse lies wholly beyond an edge of a level that ends there, its texels along that
+    /// axis are all the same: it is put beside the edge, and made thin.
+    #[inline(always)]
+    pub(crate) fn pull_in(&mut self, s: Covariance, frame: &Frame, limits: &Limits) -> Covariance {
+        let mut s = s;
+        if frame.ends {
+            if let Some(x) = beyond(self.x0, s.uu, frame.last[0], limits) {
+                (self.x0, self.fx) = (x, 0.0);
+                s = Covariance { uu: THIN, uv: 0.0, vv: s.vv, det: THIN * s.vv };
+            }
+            if let Some(y) = beyond(self.y0, s.vv, frame.last[1], limits) {
+                (self.y0, self.fy) = (y, 0.0);
+                s = Covariance { uu: s.uu, uv: 0.0, vv: THIN, det: s.uu * THIN };
+            }
+        }
+        s
+    }
+}
+
+/// The whole texels that an ellipse of this variance reaches, at most, from the whole part of its centre.
+#[inline(always)]
+pub(crate) fn reach(variance: f32, limits: &Limits) -> i32 {
+    let reach = limits.radius * sqrt32(variance);
+    (if reach < FARTHEST { reach } else { FARTHEST }) as i32 + 1
+}
+
+/// Where to put an ellipse that lies wholly beyond the texels 0 to `last`.
+#[inline(always)]
+fn beyond(at: i32, variance: f32, last: i32, limits: &Limits) -> Option<i32> {
+    let reach = reach(variance, limits);
+    if at + reach < -1 {
+        Some(-1 - ASIDE)
+    } else if at - reach > last {
+        Some(last + ASIDE)
+    } else {
+        None
+    }
 }
 
 /// The rows that have a quad of a number: the first, relative to y0, and how many. None, if that is
@@ -61,44 +127,28 @@ pub(crate) struct Rows {
 }
 
 impl Walk {
-    /// The walk over the ellipse about (u, v), in texels of level 0, in a level.
-    ///
-    /// No branch and no call: a loop over many is one of vectors.
+    /// The walk over the ellipse about a place in a level.
     #[inline(always)]
-    pub(crate) fn new(u: f64, v: f64, frame: &Frame, sigma: &Covariance, limits: &Limits) -> Self {
-        // Index space: texel centres at whole numbers.
-        let (u, v) = (u * frame.scale[0] - 0.5, v * frame.scale[1] - 0.5);
-        let (x0, y0) = (floor(u), floor(v));
-        let (fx, fy) = ((u - x0) as f32, (v - y0) as f32);
-        let (uu, uv) = (sigma.uu as f32, sigma.uv as f32);
-        let (vv, det) = (sigma.vv as f32, sigma.det as f32);
+    pub(crate) fn new(at: &Place, sigma: &Covariance, limits: &Limits) -> Self {
+        let Covariance { uv, vv, det, .. } = *sigma;
         let inverse_vv = 1.0 / vv;
-        let inverse_det = 1.0 / det;
-        // Half-widths: R√Σuu and R√Σvv of the whole, R√(det/Σvv) along any one row.
-        let wide = limits.radius * sqrt32(uu);
-        let tall = limits.radius * sqrt32(vv);
-        let run = limits.radius * sqrt32(det * inverse_vv);
+        let across = det * inverse_vv;
+        // Half of the width along any one row.
+        let run = limits.radius * sqrt32(across);
         // An interval of half-width h holds at most ⌊2h⌋ + 1 whole numbers: ⌊h/2⌋ + 1 quads.
         let groups = floor32(0.5 * run) + 1.0;
-        // A texel more on either side takes care of rounding, and the last quad's own length.
-        let inside = (u - f64::from(wide + 1.0) >= frame.low[0])
-            & (u + f64::from(wide + 6.0) <= frame.high[0])
-            & (v - f64::from(tall + 1.0) >= frame.low[1])
-            & (v + f64::from(tall + 2.0) <= frame.high[1]);
         Self {
-            x0: whole(x0),
-            y0: whole(y0),
-            fx,
-            fy,
+            x0: at.x0,
+            y0: at.y0,
+            fx: at.fx,
+            fy: at.fy,
             slope: uv * inverse_vv,
             row_scale: 0.5 * UNIT * inverse_vv,
-            run_scale: 0.5 * UNIT * (vv * inverse_det),
+            run_scale: 0.5 * UNIT / across,
             row_width: 2.0 / UNIT * vv,
-            run_width: 2.0 / UNIT * (det * inverse_vv),
+            run_width: 2.0 / UNIT * across,
             cut: limits.cut,
             groups: groups as i32,
-            inside: i32::from(inside),
-            small: i32::from(det <= SMALL),
         }
     }
 
@@ -139,10 +189,7 @@ impl Walk {
     #[inline(always)]
     pub(crate) fn row<'a>(&self, j: i32, level: &'a Level, wrap: Wrap) -> Row<'a> {
         let y = wrap.resolve(self.y0 + j, level.height);
-        let texels = y.map(|y| match wrap {
-            Wrap::Repeat => level.row_with_apron(y),
-            _ => level.row(y),
-        });
+        let texels = y.map(|y| level.row_with_apron(y));
         Row { texels, columns: level.part[0], width: level.width, wrap }
     }
 }
@@ -161,6 +208,7 @@ pub(crate) fn mean(sums: [f64; 4], total: i32) -> [f32; 4] {
 /// A row of a level, or of the constant outside it.
 #[derive(Clone, Copy)]
 pub(crate) struct Row<'a> {
+    /// With the apron on both sides.
     texels: Option<&'a [Texel]>,
     /// Columns that are kept, the apron apart.
     columns: Span,
@@ -176,7 +224,7 @@ impl Row<'_> {
     pub(crate) fn with_run<R>(&self, x: i32, f: impl FnOnce(&[Texel; LANES]) -> R) -> R {
         // Sizes are below 2²⁹. In a tile, every run begins in the row, and the apron ends it.
         let x = if self.wrap == Wrap::Repeat { x.rem_euclid(self.width as i32) } else { x };
-        let place = usize::try_from(x - self.columns.start as i32);
+        let place = usize::try_from(x - self.columns.start as i32 + APRON as i32);
         let inside = self.texels.and_then(|row| row.get(place.ok()?..)?.first_chunk());
         match inside {
             Some(run) => f(run),
@@ -189,7 +237,8 @@ impl Row<'_> {
     fn collect(&self, x: i32) -> [Texel; LANES] {
         core::array::from_fn(|i| {
             let found = self.texels.and_then(|row| {
-                Some(row[self.columns.place(self.wrap.resolve(x + i as i32, self.width)?)])
+                let column = self.wrap.resolve(x + i as i32, self.width)?;
+                Some(row[self.columns.place(column) + APRON])
             });
             found.unwrap_or_else(|| of_color(self.wrap.border()))
         })

@@ -71,11 +71,10 @@ fn add(sums: &mut [f32; WIDE], weights: &[i32; RUN], run: &[[f32; 4]; RUN], abou
     }
 }
 
-/// The [`RUN`] texels from (x, y): in place where they are kept, collected where they are not.
+/// The [`RUN`] texels from (x, y): in place where they are kept or in the apron, collected where they are not.
 #[inline(always)]
 fn run(level: &Level, wrap: Wrap, x: i32, y: i32) -> [[f32; 4]; RUN] {
-    let [columns, rows] = level.part.map(|span| span.start as i32..span.end as i32);
-    let inside = rows.contains(&y) && columns.start <= x && x + RUN as i32 <= columns.end;
+    let inside = level.holds([x, y], [x + RUN as i32 - 1, y]);
     match level.floats.get(level.index(x, y)..).and_then(<[_]>::first_chunk) {
         Some(run) if inside => *run,
         _ => collect(level, wrap, x, y),

@@ -55,7 +55,7 @@ fn piece<S: Simd>(
     cut: f32,
 ) -> i16x16<S> {
     let dx = expand(simd, offset) + f32x16::load_array(simd, COLUMN);
-    gaussian::weights(simd, expand(simd, e) + (dx * dx) * scale, cut)
+    gaussian::lanes::weights(simd, expand(simd, e) + (dx * dx) * scale, cut)
 }
 
 /// Four numbers, four times each.

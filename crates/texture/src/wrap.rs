@@ -1,3 +1,4 @@
+use fearless_simd::{Simd, f64x8, prelude::*};
 use scumble_pixel::Premul;
 
 /// What lies beyond the edge of a texture.
@@ -77,6 +78,17 @@ impl Nearer {
         } else {
             u.clamp(-FAR, FAR)
         }
+    }
+
+    /// [`Nearer::bring`] of eight; anything at all for those that are not finite.
+    #[inline(always)]
+    pub(crate) fn bring_lanes<S: Simd>(&self, simd: S, u: f64x8<S>) -> f64x8<S> {
+        let (at, low, high) = if self.periodic {
+            (u - (u * self.inverse).floor() * self.period, 0.0, self.period)
+        } else {
+            (u, -FAR, FAR)
+        };
+        at.max(f64x8::splat(simd, low)).min(f64x8::splat(simd, high))
     }
 }
 

@@ -87,6 +87,47 @@ fn texture(width: usize, height: usize, seed: u64, options: &TextureOptions) -> 
     Texture::new(noise(width, height, seed).view(), options).unwrap()
 }
 
+/// A rotation, a scale and a rotation.
+fn turned(turns: [f64; 2], [major, minor]: [f64; 2]) -> Matrix2 {
+    let [(s, c), (t, d)] = turns.map(f64::sin_cos);
+    Matrix2::new(
+        c * major * d - s * minor * t,
+        -c * major * t - s * minor * d,
+        s * major * d + c * minor * t,
+        c * minor * d - s * major * t,
+    )
+}
+
+proptest! {
+    /// A texture that has only the levels that are said to be read gives what all of them give.
+    #[test]
+    fn the_levels_for_footprints_are_those_that_they_read(
+        (w, h) in (1usize..200, 1usize..200),
+        least in 0.0..40.0f64,
+        ratio in 1.0..60.0f64,
+        spread in 1.0..4.0f64,
+        places in prop::collection::vec((-0.5..1.5f64, -0.5..1.5f64, 0.0..7.0f64, 0.0..7.0f64, 0.0..=1.0f64), 20),
+        preset in prop::sample::select(vec![Sampler::FAST, Sampler::DEFAULT, Sampler::HIGH]),
+        magnify in prop::sample::select(&Magnify::ALL),
+        decimation in prop_oneof![Just(Decimation::Kaiser), Just(Decimation::Box)],
+        wrap in wraps(),
+    ) {
+        let sampler = Sampler { magnify, ..preset };
+        let (low, high) = ([least * ratio, least], [least * ratio * spread, least * spread]);
+        let image = noise(w, h, 3);
+        let all = TextureOptions { decimation, wrap, ..TextureOptions::default() };
+        let some = TextureOptions { levels: sampler.levels_for(low, high), ..all };
+        let all = Texture::new(image.view(), &all).unwrap();
+        let some = Texture::new(image.view(), &some).unwrap();
+        for (x, y, first, second, part) in places {
+            let axes = [0, 1].map(|k| low[k] + (high[k] - low[k]) * part);
+            let jacobian = turned([first, second], axes);
+            let f = Footprint { u: x * w as f64, v: y * h as f64, jacobian };
+            prop_assert_eq!(all.sample(&f, &sampler), some.sample(&f, &sampler), "{:?}", f);
+        }
+    }
+}
+
 proptest! {
     #[test]
     fn samples_are_finite_in_range_and_bounded(

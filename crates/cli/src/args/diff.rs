@@ -34,6 +34,10 @@ pub(crate) struct Diff {
     #[arg(long)]
     pub(crate) json: bool,
 
+    /// Say nothing but errors: no warnings, no progress bar; the exit status tells
+    #[arg(short, long, conflicts_with = "json")]
+    pub(crate) quiet: bool,
+
     #[command(flatten)]
     pub(crate) limits: ReadLimits,
 }

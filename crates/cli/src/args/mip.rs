@@ -64,7 +64,7 @@ pub(crate) struct Mip {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// Say nothing but errors
+    /// Say nothing but errors: no warnings, no progress bar
     #[arg(short, long)]
     pub(crate) quiet: bool,
 

@@ -1,6 +1,6 @@
 //! The arguments of `spectrum` and `filter`.
 
-use super::{Space, value};
+use super::{Depth, ReadLimits, Space};
 use clap::{Args, ValueEnum, ValueHint};
 use scumble_signal::Kernel;
 use std::path::PathBuf;
@@ -29,7 +29,7 @@ pub(crate) struct Spectrum {
     pub(crate) space: Space,
 
     #[command(flatten)]
-    pub(crate) memory: Memory,
+    pub(crate) limits: ReadLimits,
 }
 
 const SPECTRUM_EXAMPLES: &str = "\
@@ -86,12 +86,13 @@ pub(crate) struct Filter {
     pub(crate) space: Space,
 
     #[command(flatten)]
-    pub(crate) memory: Memory,
+    pub(crate) limits: ReadLimits,
 }
 
 const FILTER_EXAMPLES: &str = "\
 Low-passes and kernels act on alpha as on colour. What a band-pass, a high-pass or a matrix that sums to 0 \
-gives is about zero; it is shown about ½, opaque.
+gives is about zero; it is shown about ½, opaque. Depth and ICC profile are kept where the format of the \
+result can carry them, and EXIF orientation is applied. Floats below 0 and above 1 stay.
 
 Examples:
   scumble filter photo.jpg soft.png --low-pass 0.1 --gaussian
@@ -102,26 +103,26 @@ Examples:
 /// A picture in and a picture out.
 #[derive(Debug, Args)]
 pub(crate) struct InOut {
-    /// The picture, a PNG, JPEG, GIF or WebP; `-` is standard input
+    /// The picture: PNG, JPEG, WebP, TIFF or OpenEXR; `-` is standard input
     #[arg(value_name = "IN", value_hint = ValueHint::FilePath)]
     pub(crate) input: PathBuf,
 
-    /// The result, a PNG; `-` is standard output
+    /// The result, in the format that its ending says; `-` is standard output, a PNG
     #[arg(value_name = "OUT", value_hint = ValueHint::FilePath)]
     pub(crate) output: PathBuf,
 
     /// Replace what stands in the result's place, whatever it is
     #[arg(long)]
     pub(crate) force: bool,
-}
 
-/// How much memory a run may use.
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Limits")]
-pub(crate) struct Memory {
-    /// Memory, in bytes; K, M, G are powers of 1024
-    #[arg(long, value_name = "BYTES", default_value = "4G", value_parser = value::bytes)]
-    pub(crate) max_memory: u64,
+    /// The numbers of the result [default: as the picture's, or the nearest that the format has; of
+    /// a spectrum, 8]
+    #[arg(long, value_enum)]
+    pub(crate) depth: Option<Depth>,
+
+    /// Say nothing but errors
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
 }
 
 /// What a picture is multiplied by before its spectrum is taken.

@@ -1,6 +1,7 @@
 //! The arguments of `scumble warp`.
 
 use super::{Crop, Limits, Report, Space, value};
+use crate::picture;
 use clap::{ArgGroup, Args, ValueEnum, ValueHint};
 use scumble::geometry::{DVec2, Homography};
 use scumble::pixel::Straight;
@@ -54,14 +55,14 @@ const ABOUT: &str = "\
 Warp a picture: every pixel of the result is the average of what it sees of the source
 
 One of --to, --matrix, --rectify and --map says where things go. Depth, ICC profile and alpha are kept \
-where the format of the result can carry them, and EXIF orientation is applied. The same picture and \
-options give the same bytes on every machine and any number of threads.";
+where the format of the result can carry them. EXIF orientation is applied first: coordinates are those \
+of the upright picture. The same picture and options give the same bytes on every machine and any number of threads.";
 
 const EXAMPLES: &str = "\
 Examples:
   scumble warp poster.png out.png --to \"330,60 900,20 1180,690 240,700\" --size 1280x720
                                       the corners of the poster go to four points
-  scumble warp page.jpg page.png --rectify \"310,220 890,160 1010,930 180,820\"
+  scumble warp page.jpg page.png --rectify \"310,220 890,160 1010,930 180,820\" --magnify catmull-rom
                                       a page in a photo, straight, its aspect recovered
   scumble warp a.png b.png --matrix 0.5,0,0,0,0.5,0,0,0,1 --verify
                                       half the size, and how exact that is
@@ -98,12 +99,18 @@ pub(crate) struct Way {
     /// straight
     ///
     /// The ratio of its sides comes from the perspective, for a photo that has not been cropped; where
-    /// that says too little, from the sides as they appear.
+    /// that says too little, from the sides as they appear. Corners that are a few pixels off cost no
+    /// sharpness. Where the page is enlarged, --magnify catmull-rom keeps print crisper.
     #[arg(long, group = "way", value_name = POINTS, value_parser = quad, allow_hyphen_values = true)]
     pub(crate) rectify: Option<Quad>,
 
     /// A picture of floats (OpenEXR, TIFF) as large as the result: red and green are the column and
-    /// the row of the picture that each pixel shows; NaN for nothing
+    /// the row of the picture that each pixel shows; `-` is standard input
+    ///
+    /// Coordinates are absolute, in pixels, as --pixel-origin says; columns go right and rows down.
+    /// Where one is not finite, or an alpha is below a half, there is nothing: the result is transparent,
+    /// pixel by pixel, without a soft edge. For one, let the map go on beyond the edge of the picture, which
+    /// --border then ends softly.
     #[arg(long, group = "way", value_name = "MAP", value_hint = ValueHint::FilePath)]
     pub(crate) map: Option<PathBuf>,
 
@@ -178,6 +185,17 @@ pub(crate) enum Depth {
     Sixteen,
     /// Floats of 32 bits
     Float,
+}
+
+impl Depth {
+    /// What a file calls it.
+    pub(crate) fn stored(self) -> picture::Depth {
+        match self {
+            Self::Eight => picture::Depth::Eight,
+            Self::Sixteen => picture::Depth::Sixteen,
+            Self::Float => picture::Depth::Float,
+        }
+    }
 }
 
 /// Four points.

@@ -5,7 +5,7 @@ use crate::error::Failure;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Request, Target};
-use crate::plain;
+use crate::png_sink;
 use crate::render;
 use crate::report::warn;
 use crate::resources::Folders;
@@ -41,7 +41,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     }
     target.check_unused(&folders, force)?;
     let sheet = Comparison { parsed, source: &source, interrupt: &interrupt };
-    plain::write(&sheet.draw(options, &reference)?, &target, &interrupt)
+    png_sink::write(&sheet.draw(options, &reference)?, &target, &interrupt)
 }
 
 /// The scene that is drawn again and again.

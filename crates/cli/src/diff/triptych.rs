@@ -5,6 +5,7 @@ use crate::error::Failure;
 use crate::interrupt::Interrupt;
 use crate::output::Target;
 use crate::picture::{Channels, Depth, Form, Format, Tone, Writer, on_checkerboard};
+use crate::progress::Steps;
 use scumble::pixel::unorm8;
 
 /// Columns between the three.
@@ -16,12 +17,13 @@ const BETWEEN: u8 = 48;
 /// Differences are enlarged so that the largest is white, and at most so much.
 const MOST: f64 = 64.0;
 
-/// Writes it as a PNG.
+/// Writes it as a PNG; a row is a step.
 pub(super) fn write(
     seen: &Seen<'_>,
     comparison: &Comparison,
     target: &Target,
     interrupt: &Interrupt,
+    steps: &Steps,
 ) -> Result<(), Failure> {
     let (width, height) = (seen.width(), seen.height());
     let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
@@ -45,6 +47,7 @@ pub(super) fn write(
         row.extend([BETWEEN; 3 * GAP]);
         (0..width).for_each(|x| row.extend(shown(seen, 1, places(x))));
         writer.rows8(&row)?;
+        steps.add(1);
     }
     writer.finish()?;
     writer.commit()

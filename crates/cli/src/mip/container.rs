@@ -4,8 +4,9 @@ use super::levels::{Level, Plan};
 use super::{dds, ktx2};
 use crate::error::Failure;
 use crate::interrupt::Interrupt;
-use crate::output::{Output, Target};
+use crate::output::{Output, Pipe, Target};
 use crate::picture::{Channels, Depth, Pixels, Tone};
+use crate::progress::Steps;
 use exr::prelude::f16;
 use std::ffi::OsStr;
 use std::io::{self, Write};
@@ -52,13 +53,14 @@ impl Container {
         }
     }
 
-    /// Writes the file.
+    /// Writes the file; a texel is a step.
     pub(super) fn write(
         self,
         levels: &[Level],
         plan: &Plan,
         target: &Target,
         interrupt: &Interrupt,
+        steps: &Steps,
     ) -> Result<(), Failure> {
         let Some(Level { width, height, .. }) = levels.first() else {
             return Err(Failure::Failed("there are no levels".to_owned()));
@@ -71,13 +73,33 @@ impl Container {
             has_alpha: plan.channels.has_alpha(),
         };
         let output = Output::open(target, interrupt)?;
-        let mut pipe = output.pipe();
+        let mut out = Counted { pipe: output.pipe(), steps, texel: texels.size() };
         match self {
-            Self::Ktx2 => ktx2::write(&mut pipe, &texels, levels, plan.channels),
-            Self::Dds => dds::write(&mut pipe, &texels, levels, plan.channels),
+            Self::Ktx2 => ktx2::write(&mut out, &texels, levels, plan.channels),
+            Self::Dds => dds::write(&mut out, &texels, levels, plan.channels),
         }
         .map_err(|e| output.failure(&e))?;
         output.commit()
+    }
+}
+
+/// A pipe that counts texels.
+struct Counted<'a> {
+    pipe: Pipe,
+    steps: &'a Steps,
+    /// Bytes of a texel.
+    texel: usize,
+}
+
+impl Write for Counted<'_> {
+    fn write(&mut self, data: &[u8]) -> io::Result<usize> {
+        let written = self.pipe.write(data)?;
+        self.steps.add((written / self.texel) as u64);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.pipe.flush()
     }
 }
 

@@ -5,6 +5,7 @@ use crate::args::{Edge, LevelFilter, Mip, Space, StoredAs};
 use crate::error::Failure;
 use crate::interrupt::Interrupt;
 use crate::picture::{Channels, Depth, Encoder, Picture, Pixels, Tone};
+use crate::progress::Steps;
 use scumble::pixel::{Premul, WorkingSpace};
 use scumble::texture::{Decimation, Levels, Texture, TextureError, TextureOptions, Wrap, maps};
 use serde_json::{Value, json};
@@ -139,16 +140,17 @@ fn texture_options(options: &Mip) -> TextureOptions {
     TextureOptions { space, wrap, decimation, levels, ..TextureOptions::default() }
 }
 
-/// Makes all levels.
+/// Makes all levels; a texel is a step.
 pub(super) fn build(
     picture: &Picture,
     plan: &Plan,
     interrupt: &Interrupt,
+    steps: &Steps,
 ) -> Result<Vec<Level>, Failure> {
     let made = if plan.normal_map {
-        normals(picture, plan, interrupt)
+        normals(picture, plan, interrupt, steps)
     } else {
-        colors(picture, plan, interrupt)
+        colors(picture, plan, interrupt, steps)
     };
     made?.map_err(|e| match e {
         TextureError::TooLarge { .. } | TextureError::OutOfMemory { .. } => {
@@ -160,7 +162,7 @@ pub(super) fn build(
 
 type Made = Result<Result<Vec<Level>, TextureError>, Failure>;
 
-fn colors(picture: &Picture, plan: &Plan, interrupt: &Interrupt) -> Made {
+fn colors(picture: &Picture, plan: &Plan, interrupt: &Interrupt, steps: &Steps) -> Made {
     let texture = match picture.texture(&plan.options) {
         Ok(texture) => texture,
         Err(e) => return Ok(Err(e)),
@@ -184,6 +186,7 @@ fn colors(picture: &Picture, plan: &Plan, interrupt: &Interrupt) -> Made {
             maps::coverage(image.pixels(), threshold)
         });
         let pixels = if l == 0 && plan.keeps(picture) {
+            steps.add(image.pixels().len() as u64);
             picture.pixels.clone()
         } else {
             let mut pixels = Pixels::empty(plan.depth);
@@ -192,6 +195,7 @@ fn colors(picture: &Picture, plan: &Plan, interrupt: &Interrupt) -> Made {
                 row.clear();
                 row.extend(image.row(y).iter().map(|&c| in_range(c)));
                 encoder.row(&row, &mut pixels);
+                steps.add(image.width() as u64);
             }
             pixels
         };
@@ -206,7 +210,7 @@ fn in_range([r, g, b, a]: [f32; 4]) -> Premul {
     Premul([r, g, b, a.clamp(0.0, 1.0)])
 }
 
-fn normals(picture: &Picture, plan: &Plan, interrupt: &Interrupt) -> Made {
+fn normals(picture: &Picture, plan: &Plan, interrupt: &Interrupt, steps: &Steps) -> Made {
     let options = TextureOptions { space: WorkingSpace::Srgb, ..plan.options };
     let colors = picture.part(0..3).texture(&options);
     let alphas = picture.channels.has_alpha().then(|| picture.part(3..4).texture(&options));
@@ -233,6 +237,7 @@ fn normals(picture: &Picture, plan: &Plan, interrupt: &Interrupt) -> Made {
         };
         let (width, height) = (image.width() as u32, image.height() as u32);
         levels.push(Level { width, height, pixels, coverage: None });
+        steps.add(u64::from(width) * u64::from(height));
     }
     Ok(Ok(levels))
 }

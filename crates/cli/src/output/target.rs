@@ -40,6 +40,9 @@ pub(crate) struct FileTarget {
     pub(crate) may_replace: bool,
 }
 
+/// Why a file stays.
+const READ: &str = "it is what is read; --force replaces it";
+
 /// Bytes that tell every format of pictures.
 const LONGEST_SIGNATURE: u64 = 12;
 
@@ -60,6 +63,24 @@ impl Target {
         }
     }
 
+    /// The format that its name says; a PNG where there is no ending.
+    pub(crate) fn format(&self) -> Result<Format, Failure> {
+        let path = match self {
+            Self::Stdout => return Ok(Format::Png),
+            Self::File(file) => &file.shown,
+            Self::Device(path) => path,
+        };
+        if path.extension().is_none() {
+            return Ok(Format::Png);
+        }
+        Format::of_name(path).ok_or_else(|| {
+            Failure::Usage(format!(
+                "{}: its ending names no format that is written: .png, .jpg, .webp, .tif or .exr",
+                path.display()
+            ))
+        })
+    }
+
     /// What messages call it.
     pub(crate) fn name(&self) -> String {
         match self {
@@ -76,6 +97,31 @@ impl Target {
                 Err(refusal(&file.shown, "it is one of the scene's images; --force replaces it"))
             }
             _ => Ok(()),
+        }
+    }
+
+    /// Refuses to replace another file that is read.
+    pub(crate) fn check_apart(&self, other: &Source, force: bool) -> Result<(), Failure> {
+        match self {
+            Self::File(file) if !force && is_scene(&file.path, other) => {
+                Err(refusal(&file.shown, READ))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether it is the file that a path names, or would name.
+    pub(crate) fn is_at(&self, path: &Path) -> bool {
+        let place = |path: &Path| {
+            let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
+            Some((
+                fs::canonicalize(folder.unwrap_or(Path::new("."))).ok()?,
+                path.file_name()?.to_owned(),
+            ))
+        };
+        match self {
+            Self::File(file) => place(&file.path).is_some_and(|p| Some(p) == place(path)),
+            _ => false,
         }
     }
 
@@ -107,7 +153,7 @@ impl Target {
         };
         if !force {
             if is_scene(&path, source) {
-                return Err(refusal(shown, "it is what is read; --force replaces it"));
+                return Err(refusal(shown, READ));
             }
             if !is_picture(&path).map_err(|e| Failure::file(shown, &e))? {
                 return Err(refusal(shown, "it exists and is not a picture; --force replaces it"));

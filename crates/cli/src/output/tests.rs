@@ -188,3 +188,24 @@ fn a_full_disk_is_reported_even_at_the_last_byte() {
     let failure = write(&target, &[0; 100_000]).unwrap_err();
     assert!(failure.to_string().contains("space"), "{failure}");
 }
+
+#[test]
+fn after_a_signal_nothing_is_written() {
+    let folder = folder();
+    let source = scene(&folder);
+    let path = folder.path().join("out.png");
+    let interrupt = unheard();
+    for early in [true, false] {
+        interrupt.cancel().store(false, std::sync::atomic::Ordering::SeqCst);
+        let output = Output::open(&target(&path, false, &source).unwrap(), &interrupt).unwrap();
+        output.pipe().write_all(b"the start").unwrap();
+        interrupt.cancel().store(true, std::sync::atomic::Ordering::SeqCst);
+        if early {
+            let error = output.pipe().write_all(b"the rest").unwrap_err();
+            assert!(matches!(output.failure(&error), Failure::Interrupted { .. }));
+        } else {
+            assert!(matches!(output.commit(), Err(Failure::Interrupted { .. })));
+        }
+    }
+    assert_eq!(names(&folder), ["scene.svg"]);
+}

@@ -41,12 +41,7 @@ impl Encoder {
         channels: Channels,
         premultiplied: bool,
     ) -> Self {
-        let working = match (space, tone) {
-            (WorkingSpace::Linear, _) => Tone::Linear,
-            // These were averaged as they came.
-            (WorkingSpace::Srgb, Tone::Curves(_)) => tone.clone(),
-            (WorkingSpace::Srgb, _) => Tone::Srgb,
-        };
+        let working = tone.working(space);
         let same = working == written;
         Self { space, working, written, same, channels, premultiplied }
     }
@@ -88,14 +83,20 @@ impl Encoder {
 
     /// A colour on the scale where white is 1.
     fn numbers(&self, color: Premul) -> [f32; 4] {
-        let [r, g, b, alpha] = color.unpremultiply().0;
+        if self.premultiplied && self.same {
+            return color.0;
+        }
+        let Premul([.., alpha]) = color;
+        // Light that comes without alpha stays as it is where there can be such.
+        let glow = self.premultiplied && alpha <= 0.0;
+        let [r, g, b, _] = if glow { color.0 } else { color.unpremultiply().0 };
         let mut color = [r, g, b];
         if !self.same {
             for (channel, v) in color.iter_mut().enumerate() {
                 *v = self.written.encode(channel, self.working.decode(channel, *v));
             }
         }
-        let factor = if self.premultiplied { alpha } else { 1.0 };
+        let factor = if self.premultiplied && !glow { alpha } else { 1.0 };
         let [r, g, b] = color.map(|v| v * factor);
         [r, g, b, alpha]
     }

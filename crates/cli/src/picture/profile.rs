@@ -36,9 +36,12 @@ const SAME: f32 = 1.0 / 4096.0;
 /// The largest difference of primaries, as XYZ, that is only rounding.
 const SAME_PRIMARY: f64 = 0.002;
 
+/// What is said of a profile that cannot be read.
+pub(super) const DAMAGED: &str = "its ICC profile is damaged and was left out";
+
 /// Reads a profile for a picture of these channels; a sentence on why it cannot be used otherwise.
 pub(super) fn parse(icc: &[u8], channels: Channels) -> Result<Profile, String> {
-    let unreadable = |_| "its ICC profile is damaged and was left out".to_owned();
+    let unreadable = |_| DAMAGED.to_owned();
     let profile = ColorProfile::new_from_slice(icc).map_err(unreadable)?;
     let fits = match profile.color_space {
         DataColorSpace::Rgb => !channels.is_gray(),

@@ -55,7 +55,11 @@ fn decode(data: &[u8], limits: Limits) -> Result<Picture, Refusal> {
     }
     let budget = Budget { limits, used: data.len() as u64 };
     let format = Format::of_content(data).ok_or_else(|| {
-        Refusal::Bad("not a picture: neither PNG, JPEG, WebP, TIFF nor OpenEXR".to_owned())
+        const READ: &str = "PNG, JPEG, WebP, TIFF and OpenEXR are";
+        Refusal::Bad(match foreign(data) {
+            Some(kind) => format!("{kind} is not read; {READ}"),
+            None => format!("not a picture of a known kind; {READ} read"),
+        })
     })?;
     let stored = match format {
         Format::Png => png(data, &budget),
@@ -65,6 +69,28 @@ fn decode(data: &[u8], limits: Limits) -> Result<Picture, Refusal> {
         Format::Exr => exr::read(data, &budget),
     };
     Ok(stored?.picture(format))
+}
+
+/// What a file is, if it is something that people have and that is not read here.
+fn foreign(start: &[u8]) -> Option<&'static str> {
+    let text = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start).trim_ascii_start();
+    let brand = start.get(4..12).filter(|b| b.starts_with(b"ftyp")).map(|b| &b[4..]);
+    Some(match (start, brand) {
+        _ if text.starts_with(b"<") => "text (perhaps a scene, for `scumble render`)",
+        (_, Some(b"avif" | b"avis")) => "AVIF",
+        (_, Some(b"heic" | b"heix" | b"mif1" | b"hevc")) => "HEIC",
+        ([b'G', b'I', b'F', b'8', ..], _) => "GIF",
+        ([b'B', b'M', ..], _) => "BMP",
+        ([b'D', b'D', b'S', b' ', ..], _) => "DDS",
+        ([0xab, b'K', b'T', b'X', ..], _) => "KTX",
+        ([b'8', b'B', b'P', b'S', ..], _) => "PSD",
+        ([b'%', b'P', b'D', b'F', ..], _) => "PDF",
+        ([b'P', b'1'..=b'7' | b'F' | b'f', b'\n' | b' ' | b'\r' | b'\t', ..], _) => "PNM",
+        ([b'#', b'?', b'R', b'A', b'D', b'I', ..], _) => "Radiance HDR",
+        ([0xff, 0x0a, ..] | [0, 0, 0, 12, b'J', b'X', b'L', ..], _) => "JPEG XL",
+        ([0, 0, 0, 12, b'j', b'P', ..] | [0xff, 0x4f, 0xff, 0x51, ..], _) => "JPEG 2000",
+        _ => return None,
+    })
 }
 
 /// What is left to use.
@@ -140,12 +166,19 @@ impl Stored {
     }
 }
 
+/// Bytes that a profile may have, unpacked. Those of printers have a few million.
+const MAX_PROFILE_BYTES: u64 = 64 << 20;
+
 /// What is said of animated pictures.
 const ANIMATED: &str = "it is animated; the first picture is read";
 
 fn png(data: &[u8], budget: &Budget) -> Result<Stored, Refusal> {
+    // Beside the pixels, which have their own budget, come rows and profiles, and those unpack to a
+    // thousand times what they are in the file.
     let mut limits = image::Limits::no_limits();
-    limits.max_alloc = Some(budget.rest());
+    let row = data.get(16..20).and_then(|w| w.first_chunk()).map_or(0, |w| u32::from_be_bytes(*w));
+    let rows = u64::from(row).saturating_mul(4 * 8);
+    limits.max_alloc = Some(budget.rest().min(MAX_PROFILE_BYTES.saturating_add(rows)));
     let decoder = PngDecoder::with_limits(Cursor::new(data), limits).map_err(bad)?;
     let animated = decoder.is_apng().unwrap_or_default();
     let gamma = decoder.gamma_value().ok().flatten();
@@ -153,11 +186,29 @@ fn png(data: &[u8], budget: &Budget) -> Result<Stored, Refusal> {
     if animated {
         stored.notes.push(ANIMATED.to_owned());
     }
+    if stored.icc.is_none() && has_chunk(data, b"iCCP") {
+        stored.notes.push(profile::DAMAGED.to_owned());
+    }
     let srgb = gamma.is_none_or(|g| (g - 1.0 / 2.2).abs() < 0.01);
     if stored.icc.is_none() && !srgb {
         stored.notes.push("its gamma (gAMA) is not that of sRGB and was ignored".to_owned());
     }
     Ok(stored)
+}
+
+/// Whether a PNG has a chunk of this kind before its pixels.
+fn has_chunk(data: &[u8], kind: &[u8; 4]) -> bool {
+    let mut at = 8;
+    while let Some(&[a, b, c, d, ref found @ ..]) =
+        data.get(at..at + 8).and_then(|h| h.first_chunk::<8>())
+    {
+        if found == kind || found == b"IDAT" {
+            return found == kind;
+        }
+        // Length, kind and checksum.
+        at = at.saturating_add(12).saturating_add(u32::from_be_bytes([a, b, c, d]) as usize);
+    }
+    false
 }
 
 fn webp(data: &[u8], budget: &Budget) -> Result<Stored, Refusal> {
@@ -179,9 +230,21 @@ fn jpeg(data: &[u8], budget: &Budget) -> Result<Stored, Refusal> {
     if !jpeg_ends(data) {
         return Err(cut_off());
     }
+    let decoder = JpegDecoder::new(Cursor::new(data)).map_err(bad)?;
+    let (width, height) = decoder.dimensions();
+    // The limits first: they say more.
+    budget.check(width.into(), height.into(), 1, 1)?;
+    let most = (data.len() as u64).saturating_mul(MOST_PIXELS_PER_BYTE);
+    if u64::from(width) * u64::from(height) > most {
+        return Err(Refusal::Bad("there is too little in it for its size".to_owned()));
+    }
     // A progressive file's coefficients are two bytes a number, beside the pixels and a copy.
-    JpegDecoder::new(Cursor::new(data)).map_err(bad).and_then(|d| stored(d, budget, 4))
+    stored(decoder, budget, 4)
 }
+
+/// Pixels that a byte of a JPEG can stand for: each block of 8 by 8 takes a bit at least, of pixels or of
+/// squares of four by four.
+const MOST_PIXELS_PER_BYTE: u64 = 8 * 64 * 16;
 
 /// Whether the coded data come to their end: decoders fill in grey where they do not.
 fn jpeg_ends(data: &[u8]) -> bool {

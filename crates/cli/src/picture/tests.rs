@@ -72,6 +72,18 @@ fn what_is_written_is_read() {
     assert_eq!(count, 8 + 2 + 4 + 12 + 8);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn what_is_finished_is_on_the_disk() {
+    for form in forms() {
+        let (target, interrupt) = (Target::Device("/dev/full".into()), unheard());
+        let mut writer = Writer::open(&target, &interrupt, form.clone()).unwrap();
+        writer.rows(&numbers(&form)).unwrap();
+        let full = writer.finish().unwrap_err().to_string();
+        assert!(full.contains("/dev/full: No space"), "{form:?} {full}");
+    }
+}
+
 #[test]
 fn a_jpeg_is_close() {
     let form = Form { width: 64, height: 64, ..form(Format::Jpeg, Channels::Rgb, Depth::Eight) };
@@ -81,6 +93,22 @@ fn a_jpeg_is_close() {
     let Pixels::U8(found) = read.pixels else { panic!("eight bits") };
     let worst = found.iter().zip(&pixels).map(|(a, b)| a.abs_diff(*b)).max();
     assert!(worst < Some(9), "{worst:?}");
+}
+
+#[test]
+fn a_jpeg_that_is_all_header_is_damaged() {
+    let form = Form { width: 64, height: 64, ..form(Format::Jpeg, Channels::Rgb, Depth::Eight) };
+    let mut data = file(&form, &numbers(&form)).unwrap();
+    let frame = data.windows(2).position(|m| m == [0xff, 0xc0]).unwrap();
+    data[frame + 5..frame + 9].copy_from_slice(&[0x40, 0, 0x40, 0]);
+    let limits = Limits { pixels: 1 << 30, memory: 1 << 34 };
+    let refused = read_bytes("a", &data, limits).unwrap_err().to_string();
+    assert_eq!(refused, "a: there is too little in it for its size");
+    assert!(matches!(read_bytes("a", &data, ALL), Err(Failure::Limit(_))));
+    // The largest flat picture is not.
+    let flat = Form { width: 4096, height: 4096, ..form };
+    let data = file(&flat, &Pixels::U8(vec![128; 3 << 24])).unwrap();
+    assert!(read_bytes("a", &data, limits).is_ok());
 }
 
 #[test]

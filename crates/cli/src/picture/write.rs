@@ -12,6 +12,7 @@ use ::image::codecs::{jpeg::JpegEncoder, webp::WebPEncoder};
 use ::image::{ExtendedColorType, ImageEncoder, ImageError};
 pub(crate) use png::PngStream;
 use std::io::Write;
+use std::ops::Range;
 
 /// The quality of JPEGs, 1 to 100. At 92 a photograph keeps about 42 dB and takes a fifth of its PNG;
 /// 75, what many tools write, shows in flat skies and around letters.
@@ -53,6 +54,21 @@ impl Form {
         Ok(())
     }
 
+    /// Says at once if that cannot be written to a target with so much memory.
+    pub(crate) fn check_for(&self, target: &Target, memory: u64) -> Result<(), Failure> {
+        self.check()?;
+        let needed = self.memory();
+        if needed > memory {
+            return Err(Failure::Limit(format!(
+                "{}: {needed} bytes are needed to write {}, which is not written row by row as PNG \
+                 is (--max-memory)",
+                target.name(),
+                self.format.name()
+            )));
+        }
+        Ok(())
+    }
+
     /// Numbers in all.
     fn numbers(&self) -> usize {
         self.width as usize * self.height as usize * self.channels.count()
@@ -60,7 +76,7 @@ impl Form {
 
     /// Bytes that a [`Writer`] holds on to: all numbers, and the file that they become, but for PNG,
     /// which is written as rows come.
-    pub(crate) fn memory(&self) -> u64 {
+    fn memory(&self) -> u64 {
         match self.format {
             Format::Png => 0,
             _ => {
@@ -113,18 +129,26 @@ impl Writer {
 
     /// Takes the next rows, or parts of them: numbers of the form's type and channels.
     pub(crate) fn rows(&mut self, rows: &Pixels) -> Result<(), Failure> {
-        self.expect(rows.len())?;
-        match (&mut self.body, rows) {
-            (Body::Stream(stream), Pixels::U8(rows)) => stream.write8(rows),
-            (Body::Stream(stream), Pixels::U16(rows)) => stream.write16(rows),
-            (Body::Whole { pixels: Pixels::U8(all), .. }, Pixels::U8(rows)) => {
-                gather(all, rows, &self.form)
+        self.part(rows, 0..rows.len())
+    }
+
+    /// Takes some of the numbers as the next rows, or parts of them.
+    pub(crate) fn part(&mut self, numbers: &Pixels, part: Range<usize>) -> Result<(), Failure> {
+        fn of<T>(values: &[T], part: Range<usize>) -> Result<&[T], Failure> {
+            values.get(part).ok_or_else(out_of_turn)
+        }
+        self.expect(part.len())?;
+        match (&mut self.body, numbers) {
+            (Body::Stream(stream), Pixels::U8(v)) => stream.write8(of(v, part)?),
+            (Body::Stream(stream), Pixels::U16(v)) => stream.write16(of(v, part)?),
+            (Body::Whole { pixels: Pixels::U8(all), .. }, Pixels::U8(v)) => {
+                gather(all, of(v, part)?, &self.form)
             }
-            (Body::Whole { pixels: Pixels::U16(all), .. }, Pixels::U16(rows)) => {
-                gather(all, rows, &self.form)
+            (Body::Whole { pixels: Pixels::U16(all), .. }, Pixels::U16(v)) => {
+                gather(all, of(v, part)?, &self.form)
             }
-            (Body::Whole { pixels: Pixels::F32(all), .. }, Pixels::F32(rows)) => {
-                gather(all, rows, &self.form)
+            (Body::Whole { pixels: Pixels::F32(all), .. }, Pixels::F32(v)) => {
+                gather(all, of(v, part)?, &self.form)
             }
             _ => Err(out_of_turn()),
         }
@@ -145,16 +169,19 @@ impl Writer {
         Ok(())
     }
 
-    /// Says that all rows have come, and encodes what is left.
+    /// Says that all rows have come, encodes what is left, and writes it: after this a full disk is no
+    /// reason to fail any more.
     pub(crate) fn finish(&mut self) -> Result<(), Failure> {
-        self.body = match std::mem::replace(&mut self.body, Body::Failed) {
-            Body::Stream(stream) => Body::Done(stream.finish()?),
+        let output = match std::mem::replace(&mut self.body, Body::Failed) {
+            Body::Stream(stream) => stream.finish()?,
             Body::Whole { output, pixels } => {
                 encode(&output, &self.form, &pixels)?;
-                Body::Done(output)
+                output
             }
             Body::Done(_) | Body::Failed => return Err(out_of_turn()),
         };
+        output.pipe().flush().map_err(|e| output.failure(&e))?;
+        self.body = Body::Done(output);
         Ok(())
     }
 

@@ -21,6 +21,16 @@ pub(crate) enum Map {
     Lookup(Lookup),
 }
 
+impl Map {
+    /// Bytes that it takes.
+    pub(super) fn memory(&self) -> u64 {
+        match self {
+            Self::Plane(_) => 0,
+            Self::Lookup(map) => map.width() as u64 * map.height() as u64 * 8,
+        }
+    }
+}
+
 impl warp::Map for Map {
     fn at(&self, p: DVec2) -> Option<Footprint> {
         match self {
@@ -58,7 +68,8 @@ pub(super) fn choose(
         PixelOrigin::Center => DVec2::new(0.5, 0.5),
     };
     let (map, (width, height)) = if let Some(path) = &way.map {
-        lookup(path, origin, way.size, limits)?
+        let memory = limits.memory.saturating_sub(picture.pixels.bytes());
+        lookup(path, origin, way.size, Limits { memory, ..limits })?
     } else if let Some(corners) = way.rectify {
         rectified(moved(corners, origin), size, way.size)?
     } else {
@@ -164,11 +175,12 @@ fn lookup(
     asked: Option<WarpSize>,
     limits: Limits,
 ) -> Result<(Map, (u32, u32)), Failure> {
-    let map = picture::read(&Source::File(path.to_owned()), limits)?;
+    let source = Source::new(path);
+    let map = picture::read(&source, limits)?;
     if !map.origin.depth.is_float() || map.channels.count() < 3 {
         return Err(Failure::Failed(format!(
             "{}: a map has floats, the column in red and the row in green",
-            path.display()
+            source.name()
         )));
     }
     let size = (map.width, map.height);
@@ -181,13 +193,19 @@ fn lookup(
         )));
     }
     let count = map.channels.count();
+    let alpha =
+        |i: usize| if map.channels.has_alpha() { map.pixels.at(i + count - 1) } else { 1.0 };
+    // An alpha that is nowhere says nothing: some programs add one and leave it empty.
+    let masked = (0..map.pixels.len()).step_by(count).any(|i| alpha(i) >= 0.5);
     let at = |x: usize, y: usize| {
         let i = (y * size.0 as usize + x) * count;
         let (u, v) = (map.pixels.at(i), map.pixels.at(i + 1));
-        [u + origin.x as f32, v + origin.y as f32]
+        // Written so that a NaN is nothing.
+        let is_there = !masked || alpha(i) >= 0.5;
+        if is_there { [u + origin.x as f32, v + origin.y as f32] } else { [f32::NAN; 2] }
     };
     let positions = Image::from_fn(size.0 as usize, size.1 as usize, at);
-    let positions = positions.map_err(|e| Failure::Limit(format!("{}: {e}", path.display())))?;
+    let positions = positions.map_err(|e| Failure::Limit(format!("{}: {e}", source.name())))?;
     Ok((Map::Lookup(Lookup::new(positions)), size))
 }
 

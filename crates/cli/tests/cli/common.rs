@@ -95,6 +95,13 @@ impl Desk {
         Run::of(child.wait_with_output().expect("the command ends"))
     }
 
+    /// A run whose standard output nobody reads.
+    pub(crate) fn run_unread(&self, arguments: &str) -> Run {
+        let mut child = self.command(arguments).spawn().expect("the command starts");
+        drop(child.stdout.take());
+        Run::of(child.wait_with_output().expect("the command ends"))
+    }
+
     pub(crate) fn picture(&self, name: &str) -> Picture {
         Picture::decode(&fs::read(self.path(name)).expect("a picture"))
     }
@@ -146,7 +153,12 @@ impl Picture {
         let mut bytes = vec![0; reader.output_buffer_size().expect("a size")];
         let info = reader.next_frame(&mut bytes).expect("all rows");
         reader.finish().expect("the end");
-        let pixels = bytes.as_chunks::<4>().0.to_vec();
+        let pixels = match info.color_type {
+            png::ColorType::GrayscaleAlpha => {
+                bytes.as_chunks().0.iter().map(|&[y, a]| [y, y, y, a]).collect()
+            }
+            _ => bytes.as_chunks::<4>().0.to_vec(),
+        };
         Self { width: info.width as usize, height: info.height as usize, pixels }
     }
 

@@ -36,6 +36,15 @@ fn pictures_that_differ_say_how_and_end_with_four() {
 }
 
 #[test]
+fn the_status_alone_will_do() {
+    let desk = two();
+    for (other, code) in [("a.png", 0), ("b.png", 4)] {
+        let run = desk.run(&format!("diff a.png {other} --quiet"));
+        assert_eq!((run.code, run.out.as_slice(), run.err.as_str()), (Some(code), &b""[..], ""));
+    }
+}
+
+#[test]
 fn the_tolerance_is_included() {
     let desk = two();
     assert_eq!(desk.run("diff a.png b.png --tolerance 7").succeeded().code, Some(0));
@@ -71,6 +80,9 @@ fn other_sizes_differ_and_leave_no_triptych() {
     let value: Value = serde_json::from_slice(&run.out).expect("one object");
     assert_eq!((&value["same"], &value["why"]), (&false.into(), &"size".into()));
     assert!(!desk.path("t.png").exists());
+    // Where a picture is awaited words would be none.
+    let run = desk.run("diff a.png small.png -o -").failed(4, "sizes differ: ", &[]);
+    assert!(run.out.is_empty());
 }
 
 #[test]

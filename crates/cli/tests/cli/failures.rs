@@ -44,6 +44,9 @@ fn malformed_text_is_told_with_its_place() {
     desk.run("render b.svg").failed(1, "b.svg:1:1: ", &[]);
     desk.put("c.svg", "<html/>");
     desk.run("render c.svg").failed(1, "c.svg:1:", &["html"]);
+    desk.put("picture.svg", png_file(2));
+    desk.run("render picture.svg").failed(1, "picture.svg: it is a picture (PNG)", &[]);
+    std::fs::remove_file(desk.path("picture.svg")).unwrap();
     desk.put("d.svg", [0x89, b'P', b'N', b'G', 0xff, 0xfe, 0, 1]);
     desk.run("render d.svg").failed(1, "d.svg", &[]);
     let run = desk.run_with_input("render - -", b"<svg><g></svg>");

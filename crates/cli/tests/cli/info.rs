@@ -44,6 +44,11 @@ fn what_cannot_be_read_is_an_error() {
     desk.put("empty", "");
     desk.run("info cut.png").failed(1, "cut.png: ", &[]);
     desk.run("info text.txt").failed(1, "text.txt: not a picture", &[]);
+    desk.put("a.gif", "GIF89a\x01\0\x01\0\0\0\0;");
+    desk.put("photo.jpg", b"\0\0\0\x1cftypheic\0\0\0\0mif1heic");
+    desk.run("info a.gif").failed(1, "a.gif: GIF is not read; PNG, JPEG,", &[]);
+    desk.run("info photo.jpg").failed(1, "photo.jpg: HEIC is not read; PNG, JPEG,", &[]);
+    desk.run("diff bad.svg cut.png").failed(1, "bad.svg: text (perhaps a scene", &[]);
     desk.run("info bad.svg").failed(1, "bad.svg:1:", &[]);
     desk.run("info empty").failed(1, "empty: the file is empty", &[]);
     desk.run("info none").failed(1, "none: ", &[]);

@@ -175,16 +175,36 @@ fn slips_are_said_in_a_line_and_cost_nothing() {
     desk.run("mip a.png .").succeeded();
     desk.run("mip level_00.png .").failed(1, "./level_00.png: ", &["--force"]);
     (0..4).for_each(|l| fs::remove_file(desk.path(&format!("level_{l:02}.png"))).expect("a level"));
-    desk.run("mip a.png none/out").failed(1, "none/out: ", &[]);
+    desk.run("mip a.png none/out").failed(1, "none: no such folder", &[]);
     desk.run("mip gray.png out --normal-map").failed(2, "--normal-map", &[]);
     desk.run("mip gray.png out --alpha-coverage 0.5").failed(2, "--alpha-coverage", &["no alpha"]);
-    desk.run("mip a.png out --max-memory 2K").failed(3, "", &["--max-memory"]);
+    desk.run("mip a.png out --max-memory 2K").failed(3, "a.png: ", &["--max-memory"]);
     desk.run("mip a.png out --max-pixels 71").failed(3, "a.png: ", &["--max-pixels"]);
     desk.run("mip a.png out --alpha-coverage 2").misused("alpha-coverage");
     desk.run("mip a.png out --levels 0").misused("at least one level");
     desk.run("mip a.png out --normal-map --space srgb").misused("cannot be used with");
     desk.run("mip a.png").misused("<OUT>");
     assert_eq!(desk.names(), ["a.png", "cut.png", "gray.png", "notes.dds"]);
+}
+
+#[test]
+fn a_sheet_takes_nothings_place() {
+    let desk = desk();
+    desk.run("mip a.png a.dds --sheet a.dds").failed(2, "--sheet a.dds: ", &["replace"]);
+    fs::create_dir(desk.path("out")).expect("a folder");
+    let inside = desk.run("mip a.png out --sheet out/level_00.png");
+    inside.failed(2, "--sheet out/level_00.png: ", &["replace"]);
+    assert_eq!(fs::read_dir(desk.path("out")).expect("the folder").count(), 0);
+    desk.run("mip a.png out --sheet out/sheet.png").succeeded();
+    desk.run("mip a.png a.dds --sheet level_00.png").succeeded();
+}
+
+#[test]
+fn levels_appear_together_or_not_at_all() {
+    let desk = desk();
+    fs::create_dir_all(desk.path("out/level_02.png")).expect("a folder");
+    desk.run("mip a.png out").failed(1, "out/level_02.png: it is a folder", &[]);
+    assert_eq!(fs::read_dir(desk.path("out")).expect("the folder").count(), 1);
 }
 
 #[test]

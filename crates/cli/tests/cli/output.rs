@@ -49,13 +49,7 @@ fn a_failure_leaves_the_old_picture() {
 #[test]
 fn a_reader_that_leaves_is_no_reason_to_panic() {
     let desk = Desk::with("a.svg", SQUARE);
-    let mut child = desk.command("render a.svg - -w 3000").spawn().unwrap();
-    drop(child.stdout.take());
-    let output = child.wait_with_output().unwrap();
-    let err = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(1), "{err}");
-    assert!(err.starts_with("scumble: standard output: "), "{err}");
-    assert_eq!(err.matches('\n').count(), 1, "{err}");
+    desk.run_unread("render a.svg - -w 3000").failed(1, "standard output: ", &[]);
 }
 
 #[cfg(target_os = "linux")]

@@ -97,6 +97,32 @@ fn a_page_comes_back_straight() {
 }
 
 #[test]
+fn a_page_has_its_own_shape_again() {
+    // A sheet of A4 as a camera of 2100 pixels of focal length sees it from above at an angle.
+    let desk = Desk::with("photo.png", rgb(2400, 1800, |_, _| [200; 3]));
+    let corners = [(1084.30, 531.98), (1807.05, 633.40), (1478.99, 1654.60), (492.73, 1338.32)];
+    let ratio = |off: f64, signs: [f64; 8]| {
+        let points: Vec<String> = corners
+            .iter()
+            .zip(signs.as_chunks().0)
+            .map(|((x, y), [a, b])| format!("{},{}", x + off * a, y + off * b))
+            .collect();
+        let mut command = desk.command("warp photo.png page.png --json --force");
+        let output = command.args(["--rectify", &points.join(" ")]).output().expect("a run");
+        let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let side = |name: &str| report[name].as_f64().expect("a number");
+        side("height") / side("width")
+    };
+    let exact = f64::sqrt(2.0);
+    let signs = [1.0, 1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
+    assert!((ratio(0.0, signs) / exact - 1.0).abs() < 0.002);
+    // Clicked two pixels off.
+    for signs in [signs, signs.map(|s| -s), [1.0, -1.0, -1.0, -1.0, 1.0, -1.0, -1.0, -1.0]] {
+        assert!((ratio(2.0, signs) / exact - 1.0).abs() < 0.015, "{}", ratio(2.0, signs));
+    }
+}
+
+#[test]
 fn depth_and_format_follow_the_name_and_the_words() {
     let desk = Desk::with("a.png", ramp());
     desk.run(&format!("warp a.png b.png {IDENTITY} --depth 16 --border clamp")).succeeded();
@@ -163,6 +189,31 @@ fn a_map_says_where_each_pixel_comes_from() {
     );
     desk.run("warp a.png c.png --map a.png").failed(1, "a.png", &["floats"]);
     desk.run("warp a.png c.png --map none.exr").failed(1, "none.exr: No such file", &[]);
+    // The map is read, too, and may be what is piped.
+    let map = std::fs::read(desk.path("map.exr")).expect("the map");
+    desk.run("warp a.png map.exr --map map.exr").failed(1, "map.exr: it is what is read", &[]);
+    assert!(map == std::fs::read(desk.path("map.exr")).expect("the map"));
+    desk.run_with_input("warp a.png c.png --map -", &map).succeeded();
+    assert_eq!(desk.picture("c.png"), b);
+    desk.run_with_input("warp - c.png --map -", &map).failed(2, "only one", &["--map"]);
+}
+
+#[test]
+fn a_maps_alpha_says_where_it_holds() {
+    let desk = Desk::with("a.png", ramp());
+    let map = |alpha: fn(usize) -> f32| {
+        exr::prelude::write_rgba_file(desk.path("map.exr"), 60, 40, |x, y| {
+            (x as f32 + 0.5, y as f32 + 0.5, 0.0_f32, alpha(x))
+        })
+        .expect("a map");
+        desk.run("warp a.png b.png --map map.exr").succeeded();
+        desk.picture("b.png")
+    };
+    let half = map(|x| if x < 30 { 1.0 } else { 0.25 });
+    assert_eq!((half.at(20, 20)[3], half.at(40, 20)), (255, [0; 4]));
+    // One that is empty, or none at all, says nothing.
+    assert_eq!(map(|_| 0.0).at(40, 20)[3], 255);
+    assert_eq!(map(|_| f32::NAN).at(40, 20)[3], 255);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! needs and runs it.
 
 use clap::Parser;
-use lab::peers::{Programs, compare};
+use lab::peers::{Effort, Programs, compare};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -23,6 +23,9 @@ struct Options {
     /// How often each is timed
     #[arg(long, default_value_t = 5)]
     rounds: usize,
+    /// One place in every square of so many pixels a side is compared with brute force
+    #[arg(long, default_value_t = 12)]
+    cell: usize,
     /// A folder for the files that the programs hand one another
     #[arg(long, default_value = "target/peers")]
     scratch: PathBuf,
@@ -47,7 +50,8 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         python: options.python.clone(),
         magick: options.magick.clone(),
     };
-    let tables = compare(&programs, &options.scratch, options.rounds)?;
+    let effort = Effort { rounds: options.rounds, cell: options.cell.max(1) };
+    let tables = compare(&programs, &options.scratch, effort)?;
     println!("{tables}");
     match &options.write {
         Some(page) => write(page, &tables),

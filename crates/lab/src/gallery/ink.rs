@@ -1,6 +1,7 @@
 //! Colours, small pictures, and their way into a file.
 
 use super::{Drawn, GalleryError, Picture};
+use crate::views::{HEIGHT, WIDTH};
 use png::{BitDepth, ColorType, Compression, Encoder, Filter};
 use scumble::coverage::SamplePattern;
 use scumble::scene::Scene;
@@ -14,6 +15,7 @@ pub(super) const RED: Straight = rgb(0xc8402a);
 pub(super) const BLUE: Straight = rgb(0x2f6f9f);
 pub(super) const GREEN: Straight = rgb(0x3f8f4f);
 pub(super) const YELLOW: Straight = rgb(0xe3a52c);
+pub(super) const PURPLE: Straight = rgb(0x7a4fa3);
 pub(super) const GREY: Straight = rgb(0xa8a8a8);
 pub(super) const LIGHT: Straight = rgb(0xdcdcdc);
 
@@ -24,6 +26,26 @@ pub(super) const fn rgb(code: u32) -> Straight {
 
 const fn channel_of(code: u32, shift: u32) -> f32 {
     ((code >> shift) & 0xff) as f32 / 255.0
+}
+
+/// White, over yellow and red, to nearly black.
+pub(super) fn heat_color(t: f64) -> Straight {
+    let stops = [rgb(0xffffff), rgb(0xffe08a), rgb(0xe8793a), rgb(0xa02c3c), rgb(0x2a1030)];
+    let place = t.clamp(0.0, 1.0) * 4.0;
+    let index = (place.floor() as usize).min(3);
+    let part = (place - index as f64) as f32;
+    let (a, b) = (stops[index].0, stops[index + 1].0);
+    Straight(std::array::from_fn(|i| a[i] + (b[i] - a[i]) * part))
+}
+
+/// A square of `side` texels, each `texel` pixels wide, in the colour of a number in 0…1.
+pub(super) fn heat_map(side: usize, texel: usize, weight: impl Fn(usize, usize) -> f64) -> Drawn {
+    Ok(Image::from_fn(side * texel, side * texel, |x, y| {
+        let line = x % texel == 0 || y % texel == 0;
+        let color = heat_color(weight(x / texel, y / texel));
+        let [r, g, b, _] = color.0.map(|v| unorm8(if line { v * 0.93 } else { v }));
+        [r, g, b, 255]
+    })?)
 }
 
 /// Eight bits of a colour.
@@ -50,6 +72,15 @@ pub(super) fn grey(plane: &Image<f64>) -> Picture {
         let code = unorm8(v as f32);
         [code, code, code, 255]
     })
+}
+
+/// The colours of a view as a picture.
+pub(super) fn shown(colors: &[[f64; 3]]) -> Drawn {
+    let pixel = |&[r, g, b]: &[f64; 3]| {
+        let [r, g, b] = [r, g, b].map(|v| unorm8(v as f32));
+        [r, g, b, 255]
+    };
+    Ok(Image::from_vec(WIDTH, HEIGHT, colors.iter().map(pixel).collect())?)
 }
 
 /// A plane by a function of the pixel's column and row.

@@ -3,6 +3,11 @@
 //! One page for each document, each picture with what is to be seen on it. Everything is a function of
 //! this source: the same bytes on every run.
 
+mod anisotropic;
+mod ellipses;
+mod enhanced_ewa;
+#[cfg(test)]
+mod errata;
 mod ewa;
 mod ink;
 mod lecture;
@@ -13,6 +18,7 @@ mod stage;
 
 use crate::Asset;
 use scumble_pixel::Image;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Why the gallery could not be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -33,12 +39,18 @@ pub enum GalleryError {
     /// The assets could not be drawn.
     #[error("the assets: {0}")]
     Assets(#[from] crate::LabError),
-    /// There is no such asset.
-    #[error("no asset is called {0}")]
+    /// There is no such asset or picture.
+    #[error("there is no {0}")]
     Missing(String),
     /// A scene could not be read.
     #[error("a scene: {0}")]
     Scene(#[from] scumble_svg::SvgError),
+    /// A texture could not be made.
+    #[error("a texture: {0}")]
+    Texture(#[from] scumble::texture::TextureError),
+    /// A view could not be set up.
+    #[error("a view: {0}")]
+    View(#[from] crate::views::ViewError),
     /// A picture could not be encoded.
     #[error("cannot encode a picture: {0}")]
     Encode(#[from] png::EncodingError),
@@ -70,7 +82,8 @@ struct Page {
     figures: &'static [Figure],
 }
 
-const PAGES: [&Page; 3] = [&lecture::PAGE, &rasterizer::PAGE, &ewa::PAGE];
+const PAGES: [&Page; 5] =
+    [&lecture::PAGE, &rasterizer::PAGE, &ewa::PAGE, &anisotropic::PAGE, &enhanced_ewa::PAGE];
 
 /// Every page and picture, relative to the gallery's folder.
 ///
@@ -78,12 +91,49 @@ const PAGES: [&Page; 3] = [&lecture::PAGE, &rasterizer::PAGE, &ewa::PAGE];
 /// [`GalleryError`], if a picture cannot be drawn or encoded.
 pub fn files() -> Result<Vec<Asset>, GalleryError> {
     let mut files = vec![page::index(&PAGES)];
-    for page in PAGES {
-        files.push(page::page(page));
-        for figure in page.figures {
-            let path = format!("{}/{}.png", page.name, figure.name);
-            files.push(Asset { path, bytes: ink::encode(&(figure.draw)()?)? });
-        }
-    }
+    files.extend(PAGES.iter().map(|page| page::page(page)));
+    files.extend(pictures("")?);
     Ok(files)
+}
+
+/// The pictures whose path, as in `lecture/moire.png`, begins with something: of one page, or one alone.
+///
+/// # Errors
+/// As [`files`]; [`GalleryError::Missing`], if there is none.
+pub fn pictures(begin: &str) -> Result<Vec<Asset>, GalleryError> {
+    let all = PAGES.iter().flat_map(|page| {
+        page.figures.iter().map(|figure| (format!("{}/{}.png", page.name, figure.name), figure))
+    });
+    let chosen: Vec<(String, &Figure)> = all.filter(|(path, _)| path.starts_with(begin)).collect();
+    if chosen.is_empty() {
+        return Err(GalleryError::Missing(begin.to_owned()));
+    }
+    draw(&chosen).into_iter().collect()
+}
+
+/// The files of figures, sorted, each drawn by the next thread that is free.
+fn draw(figures: &[(String, &Figure)]) -> Vec<Result<Asset, GalleryError>> {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut mine = Vec::new();
+        while let Some((path, figure)) = figures.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let bytes = (figure.draw)().and_then(|picture| ink::encode(&picture));
+            mine.push((path, bytes));
+        }
+        mine
+    };
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut all = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+        let mut all = work();
+        for thread in others {
+            match thread.join() {
+                Ok(more) => all.extend(more),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        all
+    });
+    all.sort_by_key(|(path, _)| *path);
+    all.into_iter().map(|(path, bytes)| Ok(Asset { path: path.clone(), bytes: bytes? })).collect()
 }

@@ -17,13 +17,19 @@ pub(super) fn index(pages: &[&Page]) -> Asset {
         let count = page.figures.len();
         let _ = write!(out, "\n- [{}]({}.md), {count} pictures", page.title, page.name);
     }
-    out.push('\n');
+    out.push_str("\n- [Errata of the literature](../errata.md): what errs in the documents, and where that is shown\n");
     Asset { path: "README.md".to_owned(), bytes: out.into_bytes() }
 }
 
 /// One page.
 pub(super) fn page(page: &Page) -> Asset {
     let mut out = format!("# {}\n\n{}\n", page.title, page.intro);
+    let name = page.name;
+    let _ = write!(
+        out,
+        "\n`cargo xtask gallery {name}` draws the pictures of this page anew, and `cargo xtask gallery \
+         {name}/NAME` one of them, NAME being that of its file.\n"
+    );
     for figure in page.figures {
         let (title, name) = (figure.title, figure.name);
         let _ = write!(out, "\n## {title}\n\n![{title}]({}/{name}.png)\n", page.name);

@@ -1,6 +1,7 @@
 //! The programs, and how each is asked to warp.
 
 use super::PeersError;
+use super::truth::Pixel;
 use crate::quality::{SIZE, Source, warps};
 use crate::timing::clock;
 use scumble::texture::{Decimation, Texture, TextureOptions};
@@ -34,7 +35,7 @@ enum How {
     Scumble(&'static [&'static str]),
     /// The method of the script.
     OpenCv(&'static str),
-    /// The filter's name.
+    /// The filter's name; empty for its own choice.
     Magick(&'static str),
 }
 
@@ -47,25 +48,48 @@ static REDUCERS: [Contender; 7] = [
     contender("`fast`", How::Scumble(&["--quality", "fast"])),
     contender("`default`", How::Scumble(&["--quality", "default"])),
     contender("`high`", How::Scumble(&["--quality", "high"])),
-    contender("OpenCV linear", How::OpenCv("linear")),
+    contender(OPENCV_LINEAR, How::OpenCv("linear")),
     contender("OpenCV 3×3, Gaussian weights", How::OpenCv("gaussian:3")),
-    contender("OpenCV 4×4, Gaussian weights", How::OpenCv("gaussian:4")),
+    contender(OPENCV_GAUSSIAN_4, How::OpenCv("gaussian:4")),
     contender("ImageMagick Gaussian", How::Magick("Gaussian")),
 ];
 
 /// Those that make it larger.
-static ENLARGERS: [Contender; 6] = [
+static ENLARGERS: [Contender; 7] = [
     contender("`default`", How::Scumble(&["--quality", "default"])),
-    contender("`--magnify bilinear`", How::Scumble(&["--magnify", "bilinear"])),
-    contender("`--magnify catmull-rom`", How::Scumble(&["--magnify", "catmull-rom"])),
-    contender("OpenCV linear", How::OpenCv("linear")),
-    contender("OpenCV cubic", How::OpenCv("cubic")),
+    contender(BILINEAR, How::Scumble(&["--magnify", "bilinear"])),
+    contender(CATMULL_ROM, How::Scumble(&["--magnify", "catmull-rom"])),
+    contender(CATMULL_ROM_16, How::Scumble(&["--magnify", "catmull-rom", "--depth", "16"])),
+    contender(OPENCV_LINEAR, How::OpenCv("linear")),
+    contender(OPENCV_CUBIC, How::OpenCv("cubic")),
     contender("ImageMagick Gaussian", How::Magick("Gaussian")),
 ];
 
-/// Those that compete under a map.
-pub(super) fn field(map: usize) -> &'static [Contender] {
-    if map == warps::ENLARGEMENT { &ENLARGERS } else { &REDUCERS }
+/// Those that aim at the mean over the pixel's square.
+static SQUARES: [Contender; 5] = [
+    contender(BOX, How::Scumble(&["--kernel", "box"])),
+    contender("`high --kernel box`", How::Scumble(&["--quality", "high", "--kernel", "box"])),
+    contender(OPENCV_LINEAR, How::OpenCv("linear")),
+    contender("OpenCV 4×4, equal weights", How::OpenCv("mean:4")),
+    contender("ImageMagick's own filter", How::Magick("")),
+];
+
+// Names that bars refer to.
+pub(super) const BOX: &str = "`--kernel box`";
+pub(super) const BILINEAR: &str = "`--magnify bilinear`";
+pub(super) const CATMULL_ROM: &str = "`--magnify catmull-rom`";
+pub(super) const CATMULL_ROM_16: &str = "`--magnify catmull-rom --depth 16`";
+pub(super) const OPENCV_LINEAR: &str = "OpenCV linear";
+pub(super) const OPENCV_GAUSSIAN_4: &str = "OpenCV 4×4, Gaussian weights";
+pub(super) const OPENCV_CUBIC: &str = "OpenCV cubic";
+
+/// Those that compete under a map, for a kind of pixel.
+pub(super) fn field(pixel: Pixel) -> &'static [Contender] {
+    match pixel {
+        Pixel::Square => &SQUARES,
+        Pixel::Gaussian => &REDUCERS,
+        Pixel::Cubic => &ENLARGERS,
+    }
 }
 
 /// A task.
@@ -81,8 +105,8 @@ pub(super) struct Work<'a> {
 pub(super) enum Outcome {
     Done {
         ms: f64,
-        /// RGB8, row after row.
-        pixels: Vec<u8>,
+        /// Red, green and blue of 255, row after row.
+        pixels: Vec<f32>,
     },
     /// The program is not there, or failed; why.
     Absent(String),
@@ -164,9 +188,10 @@ fn ours(program: &Path, args: &[&str], work: &Work) -> Result<Outcome, String> {
     Ok(Outcome::Done { ms, pixels: pixels(&out)? })
 }
 
-/// The RGB8 of a picture.
-fn pixels(path: &Path) -> Result<Vec<u8>, String> {
-    Ok(image::open(path).map_err(|e| e.to_string())?.into_rgb8().into_raw())
+/// The numbers of a picture, of 255.
+fn pixels(path: &Path) -> Result<Vec<f32>, String> {
+    let codes = image::open(path).map_err(|e| e.to_string())?.into_rgb16().into_raw();
+    Ok(codes.into_iter().map(|code| f32::from(code) / 257.0).collect())
 }
 
 /// The script that speaks to OpenCV.
@@ -184,7 +209,8 @@ fn opencv(python: &Path, method: &str, work: &Work) -> Result<Outcome, String> {
             .arg(&out),
     )?;
     let ms = said.trim().parse().map_err(|_| format!("said {said:?}"))?;
-    Ok(Outcome::Done { ms, pixels: std::fs::read(&out).map_err(|e| e.to_string())? })
+    let codes = std::fs::read(&out).map_err(|e| e.to_string())?;
+    Ok(Outcome::Done { ms, pixels: codes.into_iter().map(f32::from).collect() })
 }
 
 fn magick(program: &Path, filter: &str, work: &Work) -> Result<Outcome, String> {
@@ -198,7 +224,10 @@ fn magick(program: &Path, filter: &str, work: &Work) -> Result<Outcome, String> 
         command.arg(file(work.scratch, work.source, "png"));
         if distort {
             let view = format!("distort:viewport={}x{}+0+0", warps::WIDTH, warps::HEIGHT);
-            command.args(["-virtual-pixel", "edge", "-define", &view, "-filter", filter]);
+            command.args(["-virtual-pixel", "edge", "-define", &view]);
+            if !filter.is_empty() {
+                command.args(["-filter", filter]);
+            }
             command.args(["-distort", "PerspectiveProjection", &eight, "+repage"]);
         } else {
             command.args(["-crop", &format!("{}x{}+0+0", warps::WIDTH, warps::HEIGHT), "+repage"]);
@@ -215,7 +244,8 @@ fn magick(program: &Path, filter: &str, work: &Work) -> Result<Outcome, String> 
 /// Texels along each side of the texture whose pyramid is timed.
 const LARGE: usize = 4096;
 
-/// Pyramids of a texture of 4096² RGBA8: names, and the times of each round.
+/// Pyramids of a texture of 4096² RGBA8: names, and the times of each round. OpenCV's is the last, if it
+/// is there.
 pub(super) fn mips(
     programs: &Programs,
     rounds: usize,

@@ -2,7 +2,8 @@
 //! against brute force, and times, as a table for `docs/performance.md`.
 //!
 //! The clock of ours counts what is done between decoding and encoding: conversion, the pyramid, the
-//! filter. A rival's counts its warp alone. All run on one thread, taking turns.
+//! filter. A rival's counts its warp alone. All run on one thread, taking turns. Beside what is measured of
+//! ours stands the bar that it is to reach.
 
 mod contender;
 mod table;
@@ -16,6 +17,7 @@ use scumble_geometry::Homography;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
+use truth::{Pixel, Psnr, Truth};
 
 /// Why nothing could be compared.
 #[derive(Debug, thiserror::Error)]
@@ -44,18 +46,34 @@ const IMAGES: [&str; 4] = ["photo", "checker", "text", "zone plate"];
 /// What one contender came to on one map.
 #[derive(Debug, Clone, Default)]
 struct Row {
-    /// Decibels, image by image.
-    psnr: Vec<f64>,
+    /// Image by image.
+    psnr: Vec<Psnr>,
     /// Milliseconds of each round, on the photograph.
     ms: Vec<f64>,
 }
 
-/// Compares, in so many rounds of the clock, and returns the tables in Markdown. The files that the
-/// programs hand one another lie in `scratch`.
+/// All contenders on one map, for one kind of pixel.
+struct Heat {
+    map: usize,
+    pixel: Pixel,
+    rows: Vec<(&'static Contender, Row)>,
+}
+
+/// How long to compare.
+#[derive(Debug, Clone, Copy)]
+pub struct Effort {
+    /// Rounds of the clock.
+    pub rounds: usize,
+    /// One place in every square of so many pixels a side is compared with brute force.
+    pub cell: usize,
+}
+
+/// Compares, and returns the tables in Markdown. The files that the programs hand one another lie in
+/// `scratch`.
 ///
 /// # Errors
 /// [`PeersError`]; a rival that is not there or fails is named in the tables, and is no error.
-pub fn compare(programs: &Programs, scratch: &Path, rounds: usize) -> Result<String, PeersError> {
+pub fn compare(programs: &Programs, scratch: &Path, effort: Effort) -> Result<String, PeersError> {
     std::fs::create_dir_all(scratch)
         .map_err(|error| PeersError::File { path: scratch.to_owned(), error })?;
     let sources: Vec<&Source> =
@@ -63,49 +81,79 @@ pub fn compare(programs: &Programs, scratch: &Path, rounds: usize) -> Result<Str
     for source in &sources {
         contender::lay_out(source, scratch)?;
     }
-    let mut absent = BTreeMap::new();
     let maps = warps::with_enlargement().map_err(crate::quality::QualityError::from)?;
-    let mut rows = Vec::new();
-    for (number, map) in maps.iter().enumerate() {
-        rows.push(judged(programs, scratch, &sources, number, map, &mut absent)?);
+    let contest = Contest { programs, scratch, sources: &sources, maps: &maps, cell: effort.cell };
+    let mut absent = BTreeMap::new();
+    let mut heats = Vec::new();
+    for (map, pixel) in HEATS {
+        heats.push(contest.judged(map, pixel, &mut absent)?);
     }
-    for _ in 0..rounds {
-        for (number, map) in maps.iter().enumerate() {
-            for (contender, row) in &mut rows[number] {
-                let work = Work { source: sources[0].name, map, scratch };
-                if let Outcome::Done { ms, .. } = contender.run(programs, &work)? {
-                    row.ms.push(ms);
-                }
-            }
+    for _ in 0..effort.rounds {
+        for heat in &mut heats {
+            contest.timed(heat)?;
         }
     }
-    let mips = contender::mips(programs, rounds)?;
-    Ok(table::page(&rows, &mips, &absent, rounds))
+    let mips = contender::mips(programs, effort.rounds)?;
+    Ok(table::page(&heats, &mips, &absent, effort.rounds))
 }
 
-/// The errors of all contenders under one map.
-fn judged(
-    programs: &Programs,
-    scratch: &Path,
-    sources: &[&Source],
-    number: usize,
-    map: &Homography,
-    absent: &mut BTreeMap<&'static str, String>,
-) -> Result<Vec<(&'static Contender, Row)>, PeersError> {
-    let field = contender::field(number).iter();
-    let mut rows: Vec<(&Contender, Row)> = field.map(|c| (c, Row::default())).collect();
-    for source in sources {
-        let truth = truth::Truth::new(source, map, number == warps::ENLARGEMENT)?;
-        for (contender, row) in &mut rows {
-            let work = Work { source: source.name, map, scratch };
-            match contender.run(programs, &work)? {
-                Outcome::Done { pixels, .. } => row.psnr.push(truth.psnr(&pixels)),
-                Outcome::Absent(why) => {
-                    absent.insert(contender.program(), why);
+/// The maps, by their numbers, and the pixels that they are judged by.
+const HEATS: [(usize, Pixel); 7] = [
+    (0, Pixel::Gaussian),
+    (1, Pixel::Gaussian),
+    (2, Pixel::Gaussian),
+    (warps::ENLARGEMENT, Pixel::Cubic),
+    (0, Pixel::Square),
+    (1, Pixel::Square),
+    (2, Pixel::Square),
+];
+
+/// What is compared.
+struct Contest<'a> {
+    programs: &'a Programs,
+    scratch: &'a Path,
+    sources: &'a [&'static Source],
+    maps: &'a [Homography],
+    cell: usize,
+}
+
+impl Contest<'_> {
+    /// The errors of all contenders under a map.
+    fn judged(
+        &self,
+        map: usize,
+        pixel: Pixel,
+        absent: &mut BTreeMap<&'static str, String>,
+    ) -> Result<Heat, PeersError> {
+        let field = contender::field(pixel).iter();
+        let mut rows: Vec<(&Contender, Row)> = field.map(|c| (c, Row::default())).collect();
+        for source in self.sources {
+            let truth = Truth::new(source, &self.maps[map], pixel, self.cell)?;
+            for (contender, row) in &mut rows {
+                match contender.run(self.programs, &self.work(source, map))? {
+                    Outcome::Done { pixels, .. } => row.psnr.push(truth.psnr(&pixels)),
+                    Outcome::Absent(why) => {
+                        absent.insert(contender.program(), why);
+                    }
                 }
             }
         }
+        rows.retain(|(_, row)| row.psnr.len() == self.sources.len());
+        Ok(Heat { map, pixel, rows })
     }
-    rows.retain(|(_, row)| row.psnr.len() == sources.len());
-    Ok(rows)
+
+    /// One round of the clock.
+    fn timed(&self, heat: &mut Heat) -> Result<(), PeersError> {
+        for (contender, row) in &mut heat.rows {
+            let work = self.work(self.sources[0], heat.map);
+            if let Outcome::Done { ms, .. } = contender.run(self.programs, &work)? {
+                row.ms.push(ms);
+            }
+        }
+        Ok(())
+    }
+
+    fn work(&self, source: &'static Source, map: usize) -> Work<'_> {
+        Work { source: source.name, map: &self.maps[map], scratch: self.scratch }
+    }
 }

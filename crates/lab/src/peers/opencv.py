@@ -2,7 +2,8 @@
 
 IN is SIZE x SIZE pixels of RGB8, OUT will be W x H of them. M maps the output to the source, pixel (i, j)
 covering [i, i+1) x [j, j+1). METHOD is linear, cubic, or gaussian:N: a picture N times as large in each
-direction, blurred by a Gaussian of half a pixel and decimated, which is the usual remedy.
+direction, blurred by a Gaussian of half a pixel and decimated, which is the usual remedy; or mean:N, the
+same with equal weights.
 Prints the milliseconds of the warp alone, the second of two.
 
 opencv.py mips SIZE prints those of a chain of halvings of SIZE x SIZE pixels of RGBA8 by INTER_AREA.
@@ -38,6 +39,12 @@ def supersampled(image, m, size, n):
     return np.ascontiguousarray(blurred[n // 2 :: n, n // 2 :: n][: size[1], : size[0]])
 
 
+def averaged(image, m, size, n):
+    fine = np.diag([1 / n, 1 / n, 1.0])
+    large = warped(image, m @ fine, (size[0] * n, size[1] * n), cv2.INTER_LINEAR)
+    return cv2.resize(large, size, interpolation=cv2.INTER_AREA)
+
+
 def chain(image):
     side = image.shape[0]
     while side > 1:
@@ -65,6 +72,8 @@ def main(method, size, *rest):
     extent = (int(width), int(height))
     if method.startswith("gaussian:"):
         call = lambda: supersampled(image, m, extent, int(method.split(":")[1]))
+    elif method.startswith("mean:"):
+        call = lambda: averaged(image, m, extent, int(method.split(":")[1]))
     else:
         flag = {"linear": cv2.INTER_LINEAR, "cubic": cv2.INTER_CUBIC}[method]
         call = lambda: warped(image, m, extent, flag)

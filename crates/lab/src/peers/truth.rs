@@ -2,54 +2,91 @@
 
 use super::PeersError;
 use crate::quality::{QualityError, SIZE, Source, warps};
+use scumble::texture::Footprint;
 use scumble::texture::reference::{PixelShape, Reference};
 use scumble_geometry::{DVec2, Homography};
 use scumble_pixel::Image;
 
-/// One place in every square of so many pixels a side.
-const CELL: usize = 12;
+/// A pixel that sees so many texels along its footprint's longer axis is far away.
+const FAR: f64 = 16.0;
 
 /// Points along each axis of a pixel that is enlarged: it sees a fifth of a texel, and four pixels
 /// of its filter hold 128 of them.
 const POINTS: usize = 32;
 
+/// What a pixel is a mean of, and over what.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Pixel {
+    /// A Gaussian of σ = ½ over bilinear reconstruction.
+    Gaussian,
+    /// The pixel's square, over the same.
+    Square,
+    /// The Gaussian over Catmull and Rom's reconstruction, for what is enlarged.
+    Cubic,
+}
+
 /// What the right picture holds at some places.
 pub(super) struct Truth {
     places: Vec<DVec2>,
     colors: Vec<[f64; 3]>,
+    far: Vec<bool>,
+}
+
+/// Decibels: everywhere, and at the far places, if there are any.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Psnr {
+    pub(super) all: f64,
+    pub(super) far: Option<f64>,
 }
 
 impl Truth {
-    /// A Gaussian pixel of σ = ½ over bilinear reconstruction, or over Catmull and Rom's where the
-    /// image is enlarged.
-    pub(super) fn new(source: &Source, map: &Homography, cubic: bool) -> Result<Self, PeersError> {
-        let places = warps::places(map, CELL);
-        let colors = if cubic {
+    /// What a kind of pixel sees of an image under a map, at one place in every square of `cell` pixels
+    /// a side.
+    pub(super) fn new(
+        source: &Source,
+        map: &Homography,
+        pixel: Pixel,
+        cell: usize,
+    ) -> Result<Self, PeersError> {
+        let places = warps::places(map, cell);
+        let colors = if pixel == Pixel::Cubic {
             let image = source.image();
             in_parallel(&places, |at| enlarged(&image, map, at))
         } else {
             let texture = source.texture().map_err(QualityError::from)?;
-            let brute = Reference::new(&texture, PixelShape::Gaussian { sigma: 0.5 });
-            let brute = brute.with_density(2.5, 16);
+            let shape = match pixel {
+                Pixel::Square => PixelShape::Box,
+                _ => PixelShape::Gaussian { sigma: 0.5 },
+            };
+            let brute = Reference::new(&texture, shape).with_density(2.5, 16);
             in_parallel(&places, |at| {
                 let [r, g, b, _] = brute.sample(map, at);
                 [r, g, b].map(|v| 255.0 * v)
             })
         };
-        Ok(Self { places, colors })
+        let is_far = |p: &DVec2| Footprint::at(map, *p).jacobian.axes().major >= FAR;
+        let far = places.iter().map(is_far).collect();
+        Ok(Self { places, colors, far })
     }
 
-    /// Decibels of a picture of RGB8 pixels, row after row.
-    pub(super) fn psnr(&self, pixels: &[u8]) -> f64 {
+    /// Decibels of a picture of red, green and blue of 255, row after row.
+    pub(super) fn psnr(&self, pixels: &[f32]) -> Psnr {
         let error = |(place, color): (&DVec2, &[f64; 3])| {
             let first = 3 * (place.y as usize * warps::WIDTH + place.x as usize);
-            let found = pixels.get(first..first + 3).unwrap_or(&[0; 3]);
+            let found = pixels.get(first..first + 3).unwrap_or(&[0.0; 3]);
             color.iter().zip(found).map(|(c, f)| (c - f64::from(*f)).powi(2)).sum::<f64>()
         };
-        let sum: f64 = self.places.iter().zip(&self.colors).map(error).sum();
-        let mean = sum / (3 * self.places.len()) as f64;
-        10.0 * (255.0 * 255.0 / mean).log10()
+        let errors: Vec<f64> = self.places.iter().zip(&self.colors).map(error).collect();
+        let far: Vec<f64> =
+            errors.iter().zip(&self.far).filter(|(_, far)| **far).map(|(e, _)| *e).collect();
+        Psnr { all: decibels(&errors), far: (!far.is_empty()).then(|| decibels(&far)) }
     }
+}
+
+/// Of the sums of three squares.
+fn decibels(errors: &[f64]) -> f64 {
+    let mean = errors.iter().sum::<f64>() / (3 * errors.len()) as f64;
+    10.0 * (255.0 * 255.0 / mean).log10()
 }
 
 fn in_parallel(places: &[DVec2], f: impl Fn(DVec2) -> [f64; 3] + Sync) -> Vec<[f64; 3]> {

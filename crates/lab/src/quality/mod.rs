@@ -27,6 +27,9 @@ pub enum QualityError {
     /// A map could not be made of its points.
     #[error("a map: {0}")]
     Map(#[from] GeometryError),
+    /// A view could not be set up.
+    #[error("a view: {0}")]
+    View(#[from] crate::views::ViewError),
     /// A picture could not be encoded.
     #[error("cannot encode a picture: {0}")]
     Encode(#[from] image::ImageError),

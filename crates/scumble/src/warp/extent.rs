@@ -13,18 +13,19 @@ const CELLS: u32 = 32;
 const WORTH: f64 = 0.5;
 
 /// By how much the axes of a map of one's own, which is only looked at in places, may exceed what was
-/// seen there.
+/// seen there, or fall short of it.
 const DOUBT: f64 = 2.0;
 
-/// Upper bounds of the axes of footprints, the major first, in texels per pixel.
+/// Lower and upper bounds of the axes of footprints, the major first, in texels per pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Extent {
+    pub(super) least: [f64; 2],
     pub(super) most: [f64; 2],
 }
 
 impl Extent {
     /// Nothing is seen.
-    const NONE: Self = Self { most: [0.0; 2] };
+    const NONE: Self = Self { least: [f64::INFINITY; 2], most: [0.0; 2] };
 
     /// Of all pixels of an output of the given size. `source` is its size if only what it covers
     /// counts.
@@ -39,6 +40,9 @@ impl Extent {
         for (most, other) in self.most.iter_mut().zip(other.most) {
             *most = most.max(other);
         }
+        for (least, other) in self.least.iter_mut().zip(other.least) {
+            *least = least.min(other);
+        }
     }
 
     /// Bounds that hold for every pixel before the eye.
@@ -50,7 +54,7 @@ impl Extent {
                 let ends = corners.map(|p| map.project_homogeneous(p));
                 let (ahead, behind) =
                     (ends.iter().all(|p| p.z > 0.0), ends.iter().all(|p| p.z <= 0.0));
-                let endless = Self { most: [f64::INFINITY; 2] };
+                let endless = Self { least: [0.0; 2], most: [f64::INFINITY; 2] };
                 match (ahead, behind) {
                     (true, _) => all.and(Self::before_eye(map, &ends)),
                     (false, true) => (),
@@ -118,8 +122,9 @@ impl Extent {
         let major = sum.and(root).scaled(0.5).root();
         let determinant = map.determinant().abs();
         let minor = determinant / (w.low * w.low * w.low) / major.low;
-        // In this order a NaN becomes the major axis.
-        Self { most: [major.high, minor.min(major.high)] }
+        let least = determinant / (w.high * w.high * w.high) / major.high;
+        // In this order a NaN becomes the major axis, and nothing.
+        Self { least: [major.low, least.max(0.0)], most: [major.high, minor.min(major.high)] }
     }
 
     /// What is seen at the middles and corners of the cells, and some doubt.
@@ -129,7 +134,9 @@ impl Extent {
             let middle = (corners[0] + corners[2]) * 0.5;
             for f in [middle, corners[0]].into_iter().filter_map(|p| map.at(p)) {
                 let axes = f.jacobian.axes();
-                all.and(Self { most: [axes.major, axes.minor].map(|a| a * DOUBT) });
+                let axes = [axes.major, axes.minor];
+                let least = axes.map(|a| a * (1.0 / DOUBT));
+                all.and(Self { least, most: axes.map(|a| a * DOUBT) });
             }
         }
         all
@@ -240,8 +247,9 @@ mod tests {
                     let axes = f.jacobian.axes();
                     let inside = (0.0..30.0).contains(&f.u) && (0.0..40.0).contains(&f.v);
                     for (bounds, counts) in [(&all, true), (&visible, inside)] {
-                        for (axis, most) in [axes.major, axes.minor].into_iter().zip(bounds.most) {
-                            let within = axis <= most * (1.0 + 1e-9);
+                        for (k, axis) in [axes.major, axes.minor].into_iter().enumerate() {
+                            let within = axis <= bounds.most[k] * (1.0 + 1e-9)
+                                && axis >= bounds.least[k] * (1.0 - 1e-9);
                             prop_assert!(within || !counts, "{axis} {bounds:?}");
                         }
                     }
@@ -257,8 +265,10 @@ mod tests {
     #[test]
     fn a_plain_scale_is_tight() {
         let map = Homography::new([[4.0, 0.0, 1.0], [0.0, -4.0, 2.0], [0.0, 0.0, 1.0]]);
-        let Extent { most } = Extent::of(&map, [100, 100], None);
-        assert!(most.iter().all(|v| (v - 4.0).abs() < 1e-9), "{most:?}");
+        let Extent { least, most } = Extent::of(&map, [100, 100], None);
+        for bounds in [least, most] {
+            assert!(bounds.iter().all(|v| (v - 4.0).abs() < 1e-9), "{bounds:?}");
+        }
         let behind = Homography::new(map.m.map(|row| row.map(|v| -v)));
         assert_eq!(Extent::of(&behind, [9, 9], None), Extent::NONE);
     }
@@ -266,7 +276,7 @@ mod tests {
     #[test]
     fn the_bounds_are_close_on_a_plane_in_perspective() {
         let map = Homography::new([[20.0, 0.0, -9000.0], [0.0, 20.0, 0.0], [0.0, 0.02, 1.0]]);
-        let Extent { most } = Extent::of(&map, [1280, 720], None);
+        let Extent { most, .. } = Extent::of(&map, [1280, 720], None);
         let mut seen = [0.0f64; 2];
         for p in cells(all_of([1280, 720])).flatten() {
             let axes = map.jacobian(p).axes();

@@ -98,14 +98,16 @@ impl<M: Map> Warp<M> {
     fn texture_options(&self, size: [usize; 2], opaque: bool, area: IntRect) -> TextureOptions {
         let visible = self.border.ends().then_some(size);
         let extent = Extent::of(&self.map, [self.width, self.height], visible);
-        let levels = self.sampler.levels_for(extent.most);
+        let levels = self.sampler.levels_for(extent.least, extent.most);
         let periodic = matches!(self.border, Border::Repeat | Border::Mirror);
         let map = self.map.homography().filter(|_| !periodic && levels != Levels::All);
         let source = (size, self.border.ends());
         let window = map.and_then(|map| Extent::window(&map, area, source, &self.sampler));
         let levels = match levels {
-            // Up to a single texel, which is the mean: all of them take little more than these.
-            Levels::Range { .. } if window.is_none() => Levels::All,
+            // Down to a single texel, which is the mean: those take little more.
+            Levels::Range { first, .. } if window.is_none() => {
+                Levels::Range { first, last: usize::MAX }
+            }
             levels => levels,
         };
         let wrap = self.border.wrap(self.space, opaque);

@@ -6,7 +6,7 @@
 use crate::decode::Decoder;
 use crate::engine::{Scalar, Vector};
 use crate::format::{Alpha, Channels};
-use crate::level::Level;
+use crate::level::{APRON, Level};
 use crate::pyramid::cascade::{Cascade, Kept, Sink};
 use crate::pyramid::plan::{Plan, Span};
 use crate::pyramid::rung::Course;
@@ -30,14 +30,14 @@ const LEAST: usize = 16;
 /// The rows of the kept levels that are a band's own.
 struct Part<'a, T> {
     first: usize,
-    /// For each level its rows, their distance, and their memory.
+    /// For each level its rows, their distance, and their memory with the apron.
     levels: Vec<(Span, usize, &'a mut [T])>,
 }
 
 impl<T: Cell> Sink<T> for Part<'_, T> {
     fn row(&mut self, level: usize, y: usize) -> Option<&mut [T]> {
         let (rows, stride, texels) = self.levels.get_mut(level.checked_sub(self.first)?)?;
-        rows.holds(y).then(|| texels.get_mut((y - rows.start) * *stride..))?
+        rows.holds(y).then(|| texels.get_mut((y - rows.start) * *stride + APRON..))?
     }
 }
 
@@ -101,7 +101,7 @@ impl<'a> Cuts<'a> {
         let mut parts: Vec<Part<'b, T>> = (0..self.count()).map(part).collect();
         for (l, level) in (first..=self.deepest).zip(levels) {
             let stride = level.stride;
-            let mut rest = &mut T::memory(level)[..];
+            let mut rest = T::memory(level).get_mut(APRON * stride..).unwrap_or(&mut []);
             for (band, part) in parts.iter_mut().enumerate() {
                 let rows = self.own(band, l);
                 let (own, others) = rest.split_at_mut((rows.len() * stride).min(rest.len()));

@@ -95,12 +95,11 @@ impl Plan {
         old: Vec<Level>,
     ) -> Result<Vec<Level>, TextureError> {
         let mut old = old.into_iter();
-        // What the filters subtract is counted from the first level that is kept.
-        let base = self.levels[self.first].size;
+        let image = self.levels[0].size;
         let level = |plan: &LevelPlan| {
             let part = plan.kept?;
             let level = Level::new::<T>(plan.size, part, old.next());
-            Some(level.map(|level| level.over(base, options.decimation.variance())))
+            Some(level.map(|level| level.over(image, options.decimation.variance())))
         };
         self.levels.iter().filter_map(level).collect()
     }

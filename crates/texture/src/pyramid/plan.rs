@@ -1,7 +1,7 @@
 //! Which texels of which level are made, and which of them are kept.
 
 use crate::decimate::Taps;
-use crate::level::{LARGEST, stride};
+use crate::level::LARGEST;
 use crate::{Levels, TextureError, TextureOptions, Wrap};
 use alloc::vec::Vec;
 
@@ -118,11 +118,6 @@ pub(crate) fn kept_part(
             Span::under([w.y0, w.y1], level[1], image[1], wrap),
         ],
     }
-}
-
-/// Texels that a level takes to keep, with their padding; `None` if that overflows.
-pub(crate) fn texels_kept(part: [Span; 2]) -> Option<usize> {
-    stride(part[0].len()).checked_mul(part[1].len())
 }
 
 /// Whether a texture of this size can be made.

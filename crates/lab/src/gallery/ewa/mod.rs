@@ -1,6 +1,7 @@
 //! The pictures of a derivation of the elliptical weighted average.
 
 mod footprints;
+mod spans;
 mod weights;
 
 use super::{Figure, Page};
@@ -15,7 +16,15 @@ pub(super) const PAGE: Page = Page {
     figures: &FIGURES,
 };
 
-const FIGURES: [Figure; 4] = [
+const FIGURES: [Figure; 5] = [
+    Figure {
+        name: "spans",
+        title: "Pixels see areas of unlike size and shape",
+        look: "Left a screen of 24×12 large pixels over a plane, four of them marked; right the plane from above, with \
+               what each of the four sees of it. The same square on the screen is small near by and long in the \
+               distance, and across the line of sight it is less wide than deep.",
+        draw: spans::pixels,
+    },
     Figure {
         name: "footprints",
         title: "A pixel and its image in the texture",
@@ -42,7 +51,20 @@ const FIGURES: [Figure; 4] = [
                (its texel fetch and its exponential put right, without which it *is* bilinear); the same with \
                A = (vₓ² + v_y²)/F, B = −(uₓvₓ + u_yv_y)/F, C = (uₓ² + u_y²)/F, F = (det J)². The printed \
                weights alias far away, as bilinear does, and blur near by, where the pixel is small beside \
-               a texel and the inverse of it large.",
+               a texel and the inverse of it large.\n\n\
+               The listing put right, without its debugging; σ² is the pixel's variance and V₀ the \
+               reconstruction's, and the level is one in which the ellipse is a few texels wide:\n\n\
+               ```text\n\
+               Suu = σ²(uₓ² + u_y²) + V₀      Suv = σ²(uₓvₓ + u_yv_y)      Svv = σ²(vₓ² + v_y²) + V₀\n\
+               F = Suu·Svv − Suv²      A = Svv/F      B = −Suv/F      C = Suu/F\n\
+               for v from ⌈v₀ − R√Svv − ½⌉ to ⌊v₀ + R√Svv − ½⌋\n\
+               \x20   for u from ⌈u₀ − R√Suu − ½⌉ to ⌊u₀ + R√Suu − ½⌋\n\
+               \x20       Δu = u + ½ − u₀      Δv = v + ½ − v₀\n\
+               \x20       weight = exp(−½(A·Δu² + 2B·Δu·Δv + C·Δv²))\n\
+               \x20       color += weight · texel(wrap(u), wrap(v), level)\n\
+               \x20       total += weight\n\
+               color /= total\n\
+               ```",
         draw: weights::printed,
     },
     Figure {

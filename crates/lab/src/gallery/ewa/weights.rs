@@ -1,11 +1,12 @@
 //! What texels weigh, rightly and as printed.
 
-use super::footprints::{Columns, JACOBIANS, ellipse};
+use super::footprints::JACOBIANS;
 use crate::gallery::Drawn;
-use crate::gallery::ink::{finish, rgb};
+use crate::gallery::ellipses::{Columns, ellipse};
+use crate::gallery::ink::{finish, heat_map};
 use crate::math::exp;
 use scumble_geometry::{DVec2, Homography};
-use scumble_pixel::{Image, Straight, unorm8};
+use scumble_pixel::{Image, unorm8};
 use scumble_sheet::{Anchor, Cell, Drawing, INK, contact_sheet};
 
 /// A Δu² + 2B ΔuΔv + C Δv².
@@ -36,16 +37,6 @@ impl Quadratic {
     }
 }
 
-/// White, over yellow and red, to nearly black.
-fn heat_color(t: f64) -> Straight {
-    let stops = [rgb(0xffffff), rgb(0xffe08a), rgb(0xe8793a), rgb(0xa02c3c), rgb(0x2a1030)];
-    let place = t.clamp(0.0, 1.0) * 4.0;
-    let index = (place.floor() as usize).min(3);
-    let part = (place - index as f64) as f32;
-    let (a, b) = (stops[index].0, stops[index + 1].0);
-    Straight(std::array::from_fn(|i| a[i] + (b[i] - a[i]) * part))
-}
-
 pub(super) fn heat() -> Drawn {
     const REACH: i32 = 10;
     const TEXEL: usize = 15;
@@ -58,14 +49,9 @@ pub(super) fn heat() -> Drawn {
     ];
     for (index, (name, quadratic)) in ways.into_iter().enumerate() {
         let left = 12 + 340 * index as u32;
-        let picture = Image::from_fn(side * TEXEL, side * TEXEL, |x, y| {
-            let offset = |p: usize| (p / TEXEL) as f64 - f64::from(REACH);
-            let line = x % TEXEL == 0 || y % TEXEL == 0;
-            let color = heat_color(quadratic.weight(offset(x), offset(y)));
-            let dim = if line { 0.93 } else { 1.0 };
-            let [r, g, b, _] = color.0.map(|v| unorm8(v * dim));
-            [r, g, b, 255]
-        })?;
+        let offset = |texel: usize| texel as f64 - f64::from(REACH);
+        let weight = |x, y| quadratic.weight(offset(x), offset(y));
+        let picture = heat_map(side, TEXEL, weight)?;
         drawing.picture(picture, left, 12, 1);
         let half = (side * TEXEL) as f64 / 2.0;
         let middle = DVec2::new(f64::from(left) + half, 12.0 + half);
@@ -155,3 +141,6 @@ pub(super) fn printed() -> Drawn {
     }
     finish(contact_sheet(&cells, 3, 1))
 }
+
+#[cfg(test)]
+mod tests;

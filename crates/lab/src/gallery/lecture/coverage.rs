@@ -235,40 +235,46 @@ pub(super) fn blocks() -> Drawn {
 }
 
 pub(super) fn supersampling() -> Drawn {
-    let points = [p(0.6, 2.8), p(5.6, 0.5), p(6.3, 4.6)];
     let mut cells = Vec::new();
-    for samples in [1_usize, 4, 16] {
-        let pattern = SamplePattern::grid(samples)?;
-        let found = find(points, 7, 5, &pattern, Traversal::Tiled)?;
-        let full = pattern.full_mask().0;
-        let mut drawing = Drawing::new(284, 204);
-        let grid = Grid { at: p(2.0, 2.0), side: 40.0, columns: 7, rows: 5 };
-        for &(x, y, mask) in &found.0 {
-            let share = (mask & full).count_ones() as f32 / samples as f32;
-            let color = std::array::from_fn(|k| 1.0 + (RED.0[k] - 1.0) * share);
-            drawing.rect(grid.pixel(x, y), Straight(color));
-        }
-        grid.lines(&mut drawing);
-        for (x, y) in (0..5).flat_map(|y| (0..7).map(move |x| (x, y))) {
-            let (px, py) = (f64::from(x), f64::from(y));
-            for &[ox, oy] in pattern.offsets() {
-                let at = p(px + f64::from(ox) / 256.0, py + f64::from(oy) / 256.0);
-                drawing.dot(grid.place(at), 1.8, INK);
-            }
-            let mask = found.0.iter().find(|f| (f.0, f.1) == (x, y)).map_or(0, |f| f.2 & full);
-            let percent = 100 * mask.count_ones() as usize / samples;
-            if percent > 0 && samples < 16 {
-                // Between the four dots, or below the one.
-                let below = if samples == 1 { 16.0 } else { 4.2 };
-                let at = grid.place(p(px + 0.5, py + 0.5)) + p(0.0, below);
-                drawing.text(at, 12.0, Anchor::Middle, &format!("{percent}%"), Straight::BLACK);
-            }
-        }
-        grid.outline(&mut drawing, &points, INK);
+    for samples in [1, 4, 16] {
         let words = if samples == 1 { "1 sample".to_owned() } else { format!("{samples} samples") };
-        cells.push(Cell::new(finish(drawing)?, [words]));
+        cells.push(Cell::new(shares(samples)?, [words]));
     }
     finish(contact_sheet(&cells, 3, 1))
+}
+
+/// A triangle by so many samples a pixel, each pixel with its share of them.
+fn shares(samples: usize) -> Drawn {
+    let points = [p(0.6, 2.8), p(5.6, 0.5), p(6.3, 4.6)];
+    let pattern = SamplePattern::grid(samples)?;
+    let found = find(points, 7, 5, &pattern, Traversal::Tiled)?;
+    let full = pattern.full_mask().0;
+    let share = |mask: u64| (mask & full).count_ones() as f32 / samples as f32;
+    let color = |share: f32| Straight(std::array::from_fn(|k| 1.0 + (RED.0[k] - 1.0) * share));
+    let mut drawing = Drawing::new(284, 204);
+    let grid = Grid { at: p(2.0, 2.0), side: 40.0, columns: 7, rows: 5 };
+    for &(x, y, mask) in &found.0 {
+        drawing.rect(grid.pixel(x, y), color(share(mask)));
+    }
+    grid.lines(&mut drawing);
+    grid.outline(&mut drawing, &points, INK);
+    for (x, y) in (0..5).flat_map(|y| (0..7).map(move |x| (f64::from(x), f64::from(y)))) {
+        for &[ox, oy] in pattern.offsets() {
+            let at = p(x + f64::from(ox) / 256.0, y + f64::from(oy) / 256.0);
+            drawing.dot(grid.place(at), 1.8, INK);
+        }
+    }
+    for &(x, y, mask) in found.0.iter().filter(|_| samples < 16) {
+        // Between the four dots, or below the one, on a plate that keeps edges off the number.
+        let below = if samples == 1 { 16.0 } else { 4.2 };
+        let at = grid.place(p(f64::from(x) + 0.5, f64::from(y) + 0.5)) + p(0.0, below);
+        let words = format!("{:.0}%", 100.0 * share(mask));
+        let half = scumble_sheet::text_width(&words, 12.0) / 2.0 + 1.5;
+        let plate = Rect::new(at.x - half, at.y - 10.4, at.x + half, at.y + 2.0);
+        drawing.rect(plate, color(share(mask)));
+        drawing.text(at, 12.0, Anchor::Middle, &words, Straight::BLACK);
+    }
+    finish(drawing)
 }
 
 /// Spokes about a point, thinner than a pixel near it.
@@ -284,4 +290,42 @@ pub(super) fn spokes(center: f64, radius: f64, count: u32) -> Path {
         path.move_to(p(center, center)).line_to(p(a.0, a.1)).line_to(p(b.0, b.1)).close();
     }
     path
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gallery::errata::says;
+
+    /// L of the slides: below 0 inside, for the winding that they have, y being up.
+    fn slides(a: DVec2, b: DVec2, q: DVec2) -> f64 {
+        (b.y - a.y) * (q.x - a.x) - (b.x - a.x) * (q.y - a.y)
+    }
+
+    /// Centres of the small grid where all three are below 0.
+    fn inside(t: Points) -> usize {
+        let centres = (0..6).flat_map(|y| (0..10).map(move |x| (x, y)));
+        let all = |q: DVec2| (0..3).all(|i| slides(t[i], t[(i + 1) % 3], q) < 0.0);
+        centres.filter(|&(x, y)| all(p(f64::from(x) + 0.5, f64::from(y) + 0.5))).count()
+    }
+
+    #[test]
+    fn a_step_down_is_the_negative_difference() {
+        for i in 0..3 {
+            let (a, b) = (SMALL[i], SMALL[(i + 1) % 3]);
+            let q = p(4.0, 3.0);
+            let step = slides(a, b, q + p(0.0, 1.0)) - slides(a, b, q);
+            assert!((step + (b.x - a.x)).abs() < 1e-12, "{step}");
+        }
+        let (a, b) = (SMALL[0], SMALL[1]);
+        says(&format!("dX₀ = {:.1} and the step −{:.1}", b.x - a.x, b.x - a.x));
+    }
+
+    #[test]
+    fn the_other_winding_has_no_inside() {
+        let [a, b, c] = SMALL;
+        let found = inside(SMALL).max(inside([a, c, b]));
+        assert_eq!(inside(SMALL).min(inside([a, c, b])), 0);
+        says(&format!("{found} samples one way round and 0 the other"));
+    }
 }

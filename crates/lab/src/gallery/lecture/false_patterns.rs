@@ -5,8 +5,9 @@ use crate::gallery::ink::{BLUE, RED, enlarged, finish, grey, part, plane, rgb, s
 use crate::gallery::{Drawn, GalleryError, Picture};
 use crate::math::cos;
 use crate::svg::polar;
+use scumble::framebuffer::Exposure;
 use scumble_geometry::{DVec2, Path};
-use scumble_pixel::{Image, Straight};
+use scumble_pixel::{Image, Premul, Straight, WorkingSpace};
 use scumble_sheet::{Cell, Drawing, contact_sheet};
 use scumble_signal::{Band, Shape, Tiling, band_filter};
 use std::f64::consts::PI;
@@ -62,30 +63,36 @@ fn wagon(turn: f64) -> Drawn {
     drawing.stroke(Path::ellipse(center, DVec2::new(40.0, 40.0)), 4.0, wood);
     for k in 0..8 {
         let end = polar(middle, middle, 38.0, turn + f64::from(k) / 8.0);
-        let color: Straight = if k == 0 { RED } else { wood };
-        drawing.line([center, DVec2::new(end.0, end.1)], 3.4, color);
+        // The red one broad, so that its sweep is seen.
+        let (color, width): (Straight, f64) = if k == 0 { (RED, 7.0) } else { (wood, 3.4) };
+        drawing.line([center, DVec2::new(end.0, end.1)], width, color);
     }
     drawing.dot(center, 6.0, wood);
     finish(drawing)
 }
 
-/// The mean of many moments of a turning wheel, to the nearest code.
+/// The mean of many moments of a turning wheel, as light adds.
 fn blurred(from: f64) -> Drawn {
     const MOMENTS: u32 = 48;
-    let mut sums: Vec<[u32; 4]> = Vec::new();
-    let mut size = (0, 0);
+    let space = WorkingSpace::Linear;
+    let mut exposure = Exposure::default();
+    let mut picture = Picture::default();
     for i in 0..MOMENTS {
-        let picture = wagon(from + TURN * f64::from(i) / f64::from(MOMENTS))?;
-        size = (picture.width(), picture.height());
-        sums.resize(picture.pixels().len(), [0; 4]);
-        for (sum, pixel) in sums.iter_mut().zip(picture.pixels()) {
-            for (sum, &v) in sum.iter_mut().zip(pixel) {
-                *sum += u32::from(v);
-            }
+        picture = wagon(from + TURN * f64::from(i) / f64::from(MOMENTS))?;
+        if i == 0 {
+            exposure = Exposure::new(picture.width(), picture.height());
+        }
+        for y in 0..picture.height() {
+            let row: Vec<Premul> = picture.row(y).iter().map(|&code| space.import8(code)).collect();
+            exposure.add_row(y, 1.0, &row);
         }
     }
-    let mean = |sum: &[u32; 4]| sum.map(|v| ((v + MOMENTS / 2) / MOMENTS) as u8);
-    Ok(Image::from_vec(size.0, size.1, sums.iter().map(mean).collect())?)
+    let mut row = vec![Premul::TRANSPARENT; picture.width()];
+    for y in 0..picture.height() {
+        exposure.mean_row(y, &mut row);
+        space.export_row(&row, picture.row_mut(y));
+    }
+    Ok(picture)
 }
 
 pub(super) fn wagon_wheel() -> Drawn {

@@ -5,6 +5,7 @@ mod coverage;
 mod false_patterns;
 mod reconstruction;
 mod spectra;
+mod sums;
 
 use super::{Figure, Page};
 
@@ -19,7 +20,7 @@ pub(super) const PAGE: Page = Page {
     figures: &FIGURES,
 };
 
-const FIGURES: [Figure; 17] = [
+const FIGURES: [Figure; 20] = [
     Figure {
         name: "reconstruction",
         title: "A function, sampled and reconstructed",
@@ -58,9 +59,11 @@ const FIGURES: [Figure; 17] = [
     Figure {
         name: "orders",
         title: "Orders of visiting",
-        look: "The covered pixels in the order in which they are found, from blue to red: by rows, there and \
-               back, as far as the triangle reaches, along Morton's curve and along Hilbert's. All find the \
-               same pixels; the last two stay near where they have been, which a cache likes.",
+        look: "The covered pixels in the order in which they are found, from blue to red: by rows, there and back, row \
+               by row as far as the triangle reaches, along Morton's curve and along Hilbert's. All find the same \
+               pixels. The first tests the whole width of the box in each row, the third (backtrack) leaves a \
+               row once it is out of the triangle, which does not show here; the last two stay near where \
+               they have been, which a cache likes.",
         draw: coverage::orders,
     },
     Figure {
@@ -100,9 +103,24 @@ const FIGURES: [Figure; 17] = [
         look: "A wheel of eight spokes turns clockwise, by 40° from picture to picture, a spoke marked red. Above, each \
                picture is of one moment: as the spokes look alike, 40° forward is 5° back, and the wheel \
                creeps the wrong way. Below, each is the mean of 48 moments over the whole time between two \
-               pictures: the spokes melt away, and with them the false motion; what is left, the red \
+               pictures, as light adds (`scumble_framebuffer::Exposure`): the spokes melt away, and with them the false motion; what is left, the red \
                sweep, goes the right way.",
         draw: false_patterns::wagon_wheel,
+    },
+    Figure {
+        name: "waves",
+        title: "A function as a sum of waves",
+        look: "Three sines and their sum, and what the Fourier transform makes of the sum: the three again, each \
+               at its frequency and as high as it is.",
+        draw: sums::waves,
+    },
+    Figure {
+        name: "cosines",
+        title: "A block of a picture as a sum of cosines",
+        look: "Above left the 64 products of cosines, from constant to finest. Right, how much of each is in a block \
+               of 8×8 pixels of a portrait, in codes of 255: most of it in the slow ones. Below, the block \
+               from the first coefficient alone, from the 3, 10 and 36 slowest, and from all.",
+        draw: sums::cosines,
     },
     Figure {
         name: "spectra",
@@ -121,6 +139,14 @@ const FIGURES: [Figure; 17] = [
                mean is shown about grey. The four add up to the picture again: a test holds them to 10⁻¹². \
                `scumble filter IN OUT --band-pass 0.03,0.08` makes one.",
         draw: spectra::bands,
+    },
+    Figure {
+        name: "convolution",
+        title: "Convolution by hand",
+        look: "A filter of three weights goes along a signal, and at each place the products are added. The result is \
+               four times as high as the signal, as the weights add up to 4; divided by that, it is the \
+               signal, smoothed. At the ends a number is missing: what stands there is the border's rule.",
+        draw: sums::by_hand,
     },
     Figure {
         name: "boxes",

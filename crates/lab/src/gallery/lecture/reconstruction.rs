@@ -3,7 +3,7 @@
 use crate::gallery::Drawn;
 use crate::gallery::ink::{BLUE, GREEN, GREY, RED, finish};
 use crate::gallery::plot::Plot;
-use crate::math::{cos, sin};
+use crate::math::{cos, log10, sin};
 use scumble_geometry::{DVec2, Rect};
 use scumble_sheet::{Anchor, Drawing, INK};
 use std::f64::consts::{PI, TAU};
@@ -130,7 +130,7 @@ fn decibels(way: fn(u32, f64) -> f64, n: u32) -> f64 {
         error += d * d;
         power += music(x) * music(x);
     }
-    let level = 10.0 * (error / power).max(1e-12).log10();
+    let level = 10.0 * log10((error / power).max(1e-12));
     ((level * 10.0 + 0.5).floor() / 10.0).max(-75.0)
 }
 
@@ -168,11 +168,16 @@ pub(super) fn nyquist() -> Drawn {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gallery::errata::says;
 
     #[test]
     fn sinc_is_exact_above_twice_the_highest_frequency_and_not_at_it() {
         assert!(decibels(sinc, 9) <= -75.0);
         assert!(decibels(sinc, 31) <= -75.0);
         assert!(decibels(sinc, 8) > -12.0);
+        says(&format!("−{:.0} dB with 8 samples", -decibels(sinc, 8)));
+        for k in 0..8 {
+            assert!(sin(TAU * 4.0 * f64::from(k) / 8.0).abs() < 1e-12);
+        }
     }
 }

@@ -60,7 +60,7 @@ pub(super) fn pairs() -> Drawn {
             Window::Hann => whole,
         };
         let pair = joined(&[grey(&plane), shown], false)?;
-        cells.push(Cell::new(pair, [name.replace('²', "^2").replace('π', "pi ")]));
+        cells.push(Cell::new(pair, [name]));
     }
     finish(contact_sheet(&cells, 3, 1))
 }

@@ -45,9 +45,10 @@ pub(super) fn degenerate() -> Drawn {
 
 pub(super) fn scenes() -> Drawn {
     let mut cells = Vec::new();
-    for name in ["cube", "robot", "wheel"] {
-        let picture = by(&scene(name)?, [288, 288], [0, 0, 288, 288], 16)?;
-        cells.push(Cell::new(picture, [name]));
+    let shown = [("thin", 1), ("cube", 1), ("robot", 16), ("wheel", 16), ("quad", 16)];
+    for (name, samples) in shown {
+        let picture = by(&scene(name)?, [288, 288], [0, 0, 288, 288], samples)?;
+        cells.push(Cell::new(picture, [format!("{name}, {}", words(samples))]));
     }
     finish(contact_sheet(&cells, 3, 1))
 }

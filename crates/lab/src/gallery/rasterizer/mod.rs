@@ -1,5 +1,6 @@
 //! The pictures of a student's write-up of a rasterizer: edges, transforms, textures.
 
+mod corners;
 mod edges;
 mod textures;
 mod work;
@@ -16,7 +17,7 @@ pub(super) const PAGE: Page = Page {
     figures: &FIGURES,
 };
 
-const FIGURES: [Figure; 9] = [
+const FIGURES: [Figure; 11] = [
     Figure {
         name: "work",
         title: "Which pixels are looked at",
@@ -26,6 +27,14 @@ const FIGURES: [Figure; 9] = [
                its samples' lines with the edges. The write-up takes the edges at a row's upper and lower \
                border; a corner between the two needs looking at as well.",
         draw: work::looked_at,
+    },
+    Figure {
+        name: "wedge",
+        title: "A corner between two borders",
+        look: "A triangle within one row of pixels, with sixteen samples to each. Where the row begins and where it ends \
+               the triangle is nothing wide (green): a row's reach taken from there, as in the write-up, \
+               would find none of the red samples, which are those that it covers.",
+        draw: corners::wedge,
     },
     Figure {
         name: "samples",
@@ -47,10 +56,20 @@ const FIGURES: [Figure; 9] = [
         draw: edges::degenerate,
     },
     Figure {
+        name: "barycentric",
+        title: "The weights of three corners",
+        look: "Two ways to see what a corner's colour weighs at P. Left, by distances from the side across: as far \
+               as P is from BC, over as far as A is. Right, by areas: the triangle across from A, over the whole. \
+               Both are the same number, and the three add up to 1.",
+        draw: corners::weights,
+    },
+    Figure {
         name: "scenes",
-        title: "A cube, a robot, a wheel",
-        look: "Flat triangles in perspective; one box, placed some twenty times by nested transforms; and \
-               colours blended between the corners of triangles by their barycentric coordinates.",
+        title: "Thin triangles, a cube, a robot, a wheel, a quad",
+        look: "Above by one sample a pixel, needles and flat triangles in perspective: every edge is a stair. Below by \
+               sixteen: one box, placed some twenty times by nested transforms; colours blended between the \
+               corners of triangles by their barycentric coordinates; and a picture brought to four points, which \
+               is a homography.",
         draw: edges::scenes,
     },
     Figure {
@@ -63,11 +82,11 @@ const FIGURES: [Figure; 9] = [
     },
     Figure {
         name: "nearest_and_bilinear",
-        title: "Nearest and bilinear, by 1 and 16 samples",
+        title: "Nearest, bilinear and EWA, by 1 and 16 samples",
         look: "Part of a map, three times enlarged. Nearest texels break thin lines; between four texels they \
-               hold together; more samples smooth only where triangles end, since a pixel is shaded once \
+               hold together; the ellipse sees all that a pixel sees, which here is a little more, and no line breaks. More samples smooth only where triangles end, since a pixel is shaded once \
                however many samples it has (`--shade sample` shades each).\n\n\
-               `scumble compare assets/scenes/map.svg -o sheet.png --vary pixel=nearest/bilinear,samples=1/16 \
+               `scumble compare assets/scenes/map.svg -o sheet.png --vary samples=1/16,pixel=nearest/bilinear/ewa \
                --level zero --pattern grid --crop 268,210,90,70 --scale 3`",
         draw: textures::nearest_and_bilinear,
     },
@@ -96,11 +115,16 @@ const FIGURES: [Figure; 9] = [
     Figure {
         name: "memory",
         title: "What it costs in memory",
-        look: "A texture of 1024×1024 and its pyramid to scale, each level a quarter of the one before: 1 + ¼ + \
-               1/16 + … = 4/3, and not the 2 that the write-up has. Samples: 800×600 \
-               pixels of 16 samples at 16 bytes are 123 MB if all are kept for the frame. Scumble keeps those of \
-               the tiles at work, 64×64 pixels each: at worst 1.2 MB a thread, and 80 kB where the \
-               samples of a pixel are alike.",
+        look: "A map of 1024×512 texels and its pyramid, the levels from 256×128 on, to scale. Each is a \
+               quarter of the one before: 1 + ¼ + 1/16 + … = 4/3 of the texture, and not the 2 that the \
+               write-up has. Samples are not kept for the frame but for the tiles at work, 64×64 pixels each.\n\n\
+               | | the write-up | Scumble |\n\
+               |---|---|---|\n\
+               | ways to read a pixel | nothing more | nothing more |\n\
+               | the pyramid of a texture of 1024×512 | twice the texture | 4/3: 5.6 MB at 8 bytes a texel |\n\
+               | 16 samples, 800×600 | 16 times the picture: 123 MB at 16 bytes a sample | the tiles at work: \
+               at worst 1.2 MB a thread, 80 kB where the samples of a pixel are alike |\n\n\
+               What these take in time is on the page on [performance](../performance.md).",
         draw: textures::memory,
     },
 ];

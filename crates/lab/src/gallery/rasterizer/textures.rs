@@ -4,18 +4,24 @@ use crate::gallery::Drawn;
 use crate::gallery::ink::{BLUE, RED, codes, finish};
 use crate::gallery::stage::{scene, shot};
 use crate::svg::hue;
+use crate::textures;
 use scumble::coverage::SamplePattern;
-use scumble::texture::{LevelMode, PixelFilter};
+use scumble::texture::{LevelMode, PixelFilter, Texture, TextureOptions};
 use scumble_geometry::{DVec2, Homography, Rect};
-use scumble_pixel::{Image, Straight};
+use scumble_pixel::{Image, Straight, unorm8};
 use scumble_sheet::{Anchor, Cell, Drawing, INK, contact_sheet};
+
+const FILTERS: [(PixelFilter, &str); 3] = [
+    (PixelFilter::Nearest, "nearest"),
+    (PixelFilter::Bilinear, "bilinear"),
+    (PixelFilter::Ewa, "EWA"),
+];
 
 pub(super) fn nearest_and_bilinear() -> Drawn {
     let scene = scene("map")?;
     let mut cells = Vec::new();
-    let filters = [(PixelFilter::Nearest, "nearest"), (PixelFilter::Bilinear, "bilinear")];
-    for (pixel, name) in filters {
-        for samples in [1, 16] {
+    for samples in [1, 16] {
+        for (pixel, name) in FILTERS {
             let picture = shot(&scene, [800, 600], [268, 210, 90, 70], |settings| {
                 settings.pattern = SamplePattern::grid(samples)?;
                 settings.sampler = settings.sampler.with(pixel, LevelMode::Zero);
@@ -25,7 +31,7 @@ pub(super) fn nearest_and_bilinear() -> Drawn {
             cells.push(Cell::new(picture, [format!("{name}, {samples} sample{plural}")]));
         }
     }
-    finish(contact_sheet(&cells, 2, 3))
+    finish(contact_sheet(&cells, 3, 3))
 }
 
 pub(super) fn pixel_and_level() -> Drawn {
@@ -37,13 +43,7 @@ pub(super) fn pixel_and_level() -> Drawn {
         (LevelMode::Linear, "between levels"),
     ];
     for (level, level_name) in levels {
-        let ellipse = scumble::texture::Sampler::DEFAULT.pixel;
-        let filters = [
-            (PixelFilter::Nearest, "nearest"),
-            (PixelFilter::Bilinear, "bilinear"),
-            (ellipse, "EWA"),
-        ];
-        for (pixel, name) in filters {
+        for (pixel, name) in FILTERS {
             let picture = shot(&scene, [800, 600], [300, 190, 290, 160], |settings| {
                 settings.sampler = settings.sampler.with(pixel, level);
                 Ok(())
@@ -106,28 +106,67 @@ pub(super) fn levels() -> Drawn {
 }
 
 pub(super) fn memory() -> Drawn {
-    let mut drawing = Drawing::new(640, 300);
-    let (mut x, mut side) = (16.0, 256.0);
-    let mut color = BLUE;
-    for level in 0..9 {
-        drawing.rect(Rect::new(x, 272.0 - side, x + side, 272.0), color);
-        if level < 5 {
-            let words = ["1", "1/4", "1/16", "1/64", "1/256"][level];
-            let at = DVec2::new(x + side / 2.0, 290.0);
-            if side > 20.0 {
-                drawing.text(at, 14.0, Anchor::Middle, words, INK);
-            }
-        }
-        x += side + 8.0;
-        side /= 2.0;
-        color = RED;
+    let texture = Texture::new(textures::world().view(), &TextureOptions::default())?;
+    let mut drawing = Drawing::new(640, 260);
+    let mut x = 16;
+    // The first two are too large to show.
+    for level in (2..texture.level_count()).filter_map(|index| texture.level(index)) {
+        let bytes = |color: &[f32; 4]| color.map(unorm8);
+        let (width, height) = (level.width() as u32, level.height() as u32);
+        drawing.picture(level.map(bytes), x, 156 - height, 1);
+        x += width + 8;
     }
-    drawing.text(
-        DVec2::new(300.0, 60.0),
-        16.0,
-        Anchor::Start,
-        "the texture, and a third of it more",
-        INK,
-    );
+    let words = ["1/16", "1/64", "1/256", "1/1024"];
+    let mut left = 16.0;
+    for (index, words) in words.into_iter().enumerate() {
+        let width = f64::from(256 >> index);
+        let at = DVec2::new(left + width / 2.0, 176.0);
+        drawing.text(at, 14.0, Anchor::Middle, words, INK);
+        left += width + 8.0;
+    }
+    let mut left = 16.0;
+    let parts = [(1.0, BLUE), (0.25, RED), (0.0625, RED), (0.015_625, RED), (0.005, RED)];
+    for (part, color) in parts {
+        let width = 440.0 * part;
+        drawing.rect(Rect::new(left, 200.0, left + width - 1.5, 224.0), color);
+        left += width;
+    }
+    let at = DVec2::new(16.0, 246.0);
+    drawing.text(at, 14.0, Anchor::Start, "the texture, and a third of it more", INK);
     finish(drawing)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gallery::errata::says;
+    use crate::gallery::rasterizer::PAGE;
+    use scumble::texture::{Footprint, Levels};
+
+    #[test]
+    fn a_pyramid_is_a_third_more() {
+        let whole = TextureOptions::default();
+        let base = TextureOptions { levels: Levels::BaseOnly, ..whole };
+        let memory = |o: &TextureOptions| Texture::memory_for(1024, 512, o).unwrap() as f64;
+        let ratio = memory(&whole) / memory(&base);
+        // And the margins of the levels.
+        assert!((ratio - 4.0 / 3.0).abs() < 0.03, "{ratio}");
+        let texels: usize = (0..10).map(|l| (1024 >> l) * (512 >> l)).sum();
+        says(&format!("{:.3} of it", texels as f64 / (1024.0 * 512.0)));
+        let words = PAGE.figures.iter().find(|f| f.name == "memory").unwrap().look;
+        let megabytes = format!("{:.1} MB at 8 bytes", 8e-6 * texels as f64);
+        assert!(words.contains(&megabytes), "{megabytes}");
+        assert!(words.contains(&format!("{:.0} MB at 16 bytes", 800.0 * 600.0 * 256.0 / 1e6)));
+    }
+
+    #[test]
+    fn a_difference_is_a_chord() {
+        // A plane: v = 120/y, four pixels below the horizon.
+        let map = Homography::new([[1.0, 0.0, 0.0], [0.0, 0.0, 120.0], [0.0, 1.0, 0.0]]);
+        let at = DVec2::new(0.5, 4.0);
+        let v = |p: DVec2| map.project(p).unwrap().y;
+        let chord = v(at + DVec2::new(0.0, 1.0)) - v(at);
+        let derivative = Footprint::at(&map, at).jacobian.d;
+        says(&format!("{:.1} of the derivative", chord / derivative));
+    }
 }

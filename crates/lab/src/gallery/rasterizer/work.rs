@@ -27,10 +27,12 @@ impl Sink for Covered {
     }
 }
 
+/// The triangle that is drawn.
+const POINTS: [DVec2; 3] = [DVec2::new(3.9, 61.8), DVec2::new(51.6, 4.2), DVec2::new(92.1, 67.5)];
+
 pub(super) fn looked_at() -> Drawn {
-    let points = [(3.9, 61.8), (51.6, 4.2), (92.1, 67.5)].map(|(x, y)| DVec2::new(x, y));
     let mut drawing = Drawing::new(920, 280);
-    let Some(shape) = Shape::triangle(points)? else { return finish(drawing) };
+    let Some(shape) = Shape::triangle(POINTS)? else { return finish(drawing) };
     let mut covered = Covered(vec![false; (COLUMNS * ROWS) as usize]);
     let clip = IntRect::new(0, 0, COLUMNS, ROWS);
     shape.rasterize(clip, &SamplePattern::grid(1)?, &mut Scratch::new(), &mut covered);
@@ -58,7 +60,7 @@ pub(super) fn looked_at() -> Drawn {
             drawing.rect(Rect::new(corner.x, corner.y, corner.x + SIDE, corner.y + SIDE), color);
         }
         grid(&mut drawing, at);
-        let outline = points.map(|q| at + q * SIDE);
+        let outline = POINTS.map(|q| at + q * SIDE);
         drawing.stroke(Path::polyline(outline, true), 1.5, INK);
         let words = if panel == 1 {
             format!("{title}: 2 crossings a row")
@@ -84,5 +86,45 @@ fn grid(drawing: &mut Drawing, at: DVec2) {
     for y in (0..=ROWS).step_by(8) {
         let y = at.y + f64::from(y) * SIDE;
         drawing.line([DVec2::new(at.x, y), DVec2::new(far.x, y)], 1.0, LIGHT);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gallery::errata::says;
+
+    /// Counts pixels and samples.
+    #[derive(Default)]
+    struct Count {
+        pixels: usize,
+        samples: u32,
+    }
+
+    impl Sink for Count {
+        fn run(&mut self, _: i32, x0: i32, x1: i32) {
+            self.pixels += (x1 - x0) as usize;
+            self.samples += 16 * (x1 - x0) as u32;
+        }
+
+        fn pixel(&mut self, _: i32, _: i32, mask: SampleMask) {
+            self.pixels += 1;
+            self.samples += mask.0.count_ones();
+        }
+    }
+
+    #[test]
+    fn supersampling_shades_sixteen_times_as_often() {
+        let shape = Shape::triangle(POINTS).unwrap().unwrap();
+        let mut count = Count::default();
+        let pattern = SamplePattern::grid(16).unwrap();
+        shape.rasterize(
+            IntRect::new(0, 0, COLUMNS, ROWS),
+            &pattern,
+            &mut Scratch::new(),
+            &mut count,
+        );
+        let Count { pixels, samples } = count;
+        says(&format!("{samples} times by supersampling, {pixels} times by multisampling"));
     }
 }

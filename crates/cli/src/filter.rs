@@ -2,50 +2,49 @@
 
 use crate::args::{self, Convolution, Filter as Options};
 use crate::error::Failure;
-use crate::input::Source;
-use crate::interrupt::Interrupt;
-use crate::output::{Request, Target};
-use crate::plain;
+use crate::progress::Steps;
+use crate::signal::{COLOR_BYTES, Colors, Job};
 use scumble::pixel::{Image, Premul};
 use scumble_signal::{
     Band, Border, Kernel2, Shape, SignalError, Tiling, band_filter, convolve, convolve_separable,
     map_channels,
 };
 
-/// Memory that a pixel takes for a convolution: as eight bits, as colour twice, four planes, and two
-/// of work.
-const SPACE_BYTES: u64 = 4 + 2 * 16 + 4 * 8 + 2 * 8;
+/// Memory that a pixel takes for a convolution: as a colour three times, four planes, and two of work.
+const SPACE_BYTES: u64 = 3 * COLOR_BYTES + 4 * 8 + 2 * 8;
 
 /// What a transform takes beside: a spectrum, its copy, and columns.
 const SPECTRUM_BYTES: u64 = 3 * 16;
 
+/// Channels that are filtered, one after another.
+const CHANNELS: u64 = 4;
+
 /// A filter ready to be applied.
-enum Job {
+enum Work {
     Band(Band, Shape, Tiling),
     Convolution(Convolution, Border),
 }
 
 /// Does what the arguments say.
 pub(crate) fn run(options: &Options) -> Result<(), Failure> {
-    let interrupt = Interrupt::install()?;
-    let source = Source::new(&options.files.input);
-    let out = Some(options.files.output.as_path());
-    let target = Target::new(&Request { out, force: options.files.force, json: false }, &source)?;
-    let job = Job::new(options)?;
+    let work = Work::new(options)?;
+    let job = Job::new(&options.files, &options.limits)?;
+    let picture = job.read(work.bytes_per_pixel())?;
     let space = options.space.working();
-    let picture = plain::read(&source, &options.memory, job.bytes_per_pixel())?;
-    let colors = picture.map(|&c| space.import8(c));
-    let filtered = job.apply(&colors).map_err(|e| Failure::Usage(e.to_string()))?;
-    let about_zero = job.is_about_zero();
-    let offset = options.offset.unwrap_or(if about_zero { 0.5 } else { 0.0 }) as f32;
-    let shown = filtered.map(|&Premul([r, g, b, a])| {
-        let alpha = if about_zero { 1.0 } else { a };
-        space.export(Premul([r + offset, g + offset, b + offset, alpha]))
+    let colors = job.colors(&picture, space)?;
+    let steps = Steps::new(options.files.quiet, CHANNELS);
+    let filtered = work.apply(&colors, &steps).map_err(|e| Failure::Usage(e.to_string()))?;
+    steps.clear();
+    let opaque = work.is_about_zero() || picture.is_opaque();
+    let offset = options.offset.unwrap_or(if work.is_about_zero() { 0.5 } else { 0.0 }) as f32;
+    let image = filtered.map(|&Premul([r, g, b, a])| {
+        Premul([r + offset, g + offset, b + offset, if opaque { 1.0 } else { a }])
     });
-    plain::write(&shown, &target, &interrupt)
+    let channels = if opaque { picture.channels.without_alpha() } else { picture.channels };
+    job.write(&Colors { image, space, channels }, &picture, picture.origin.depth)
 }
 
-impl Job {
+impl Work {
     fn new(options: &Options) -> Result<Self, Failure> {
         if let Some(kernel) = &options.kernel {
             let border = match options.border {
@@ -94,21 +93,28 @@ impl Job {
         }
     }
 
-    fn apply(&self, picture: &Image<Premul>) -> Result<Image<Premul>, SignalError> {
+    /// The picture filtered; a channel is a step.
+    fn apply(&self, picture: &Image<Premul>, steps: &Steps) -> Result<Image<Premul>, SignalError> {
+        type Plane = Image<f64>;
+        let channels = |filter: &dyn Fn(&Plane) -> Result<Plane, SignalError>| {
+            map_channels(picture.view(), |plane| {
+                let filtered = filter(plane);
+                steps.add(1);
+                filtered
+            })
+        };
         match self {
             Self::Band(band, shape, tiling) => {
-                map_channels(picture.view(), |p| band_filter(p.view(), *band, *shape, *tiling))
+                channels(&|p| band_filter(p.view(), *band, *shape, *tiling))
             }
             Self::Convolution(Convolution::Separable(kernel), border) => {
-                map_channels(picture.view(), |p| {
-                    Ok(convolve_separable(p.view(), kernel, kernel, *border))
-                })
+                channels(&|p| Ok(convolve_separable(p.view(), kernel, kernel, *border)))
             }
             Self::Convolution(Convolution::Matrix { columns, weights }, border) => {
                 let rows = weights.len() / columns.max(&1);
                 let make = if cancels(weights) { Kernel2::new } else { Kernel2::normalized };
                 let kernel = make(*columns, rows, weights.clone())?;
-                map_channels(picture.view(), |p| Ok(convolve(p.view(), &kernel, *border)))
+                channels(&|p| Ok(convolve(p.view(), &kernel, *border)))
             }
         }
     }
