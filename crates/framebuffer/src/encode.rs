@@ -1,3 +1,4 @@
+use crate::samples::same_bits;
 use scumble_pixel::{Premul, WorkingSpace};
 
 /// Finished pixels as straight 8-bit sRGB, every component rounded to nearest; the shorter slice
@@ -35,9 +36,13 @@ fn encode_by(pixels: &[Premul], space: WorkingSpace, out: &mut [[u8; 4]]) {
     space.export_row(rest, rest_out);
 }
 
-/// Whether all pixels are of one colour, to the bit. (Looks at all of them, which fills vectors.)
+/// Whether all pixels are of one colour, to the bit. (Looks at the first alone, since in a gradient that
+/// is enough, and then at all of them, which fills vectors.)
 #[inline(always)]
 fn are_all(pixels: &[Premul; TOGETHER], color: Premul) -> bool {
+    if !same_bits(pixels[0], color) {
+        return false;
+    }
     let [r, g, b, a] = color.0.map(f32::to_bits);
     let four = [r, g, b, a, r, g, b, a, r, g, b, a, r, g, b, a];
     let mut differ = [0; 16];
