@@ -75,6 +75,10 @@ fn bend_squared<const N: usize>(curve: &[DVec2; N]) -> f64 {
     let (mut along, mut across) = (f64::INFINITY, 0.0f64);
     for leg in curve.windows(2) {
         let leg = leg[1] - leg[0];
+        if leg == DVec2::ZERO {
+            // It has no direction that the curve could take.
+            continue;
+        }
         along = along.min(leg.dot(chord));
         across = across.max(leg.perp_dot(chord).abs());
     }

@@ -149,8 +149,8 @@ mod tests {
         let base = TextureOptions { levels: Levels::BaseOnly, ..whole };
         let memory = |o: &TextureOptions| Texture::memory_for(1024, 512, o).unwrap() as f64;
         let ratio = memory(&whole) / memory(&base);
-        // And the margins of the levels.
-        assert!((ratio - 4.0 / 3.0).abs() < 0.03, "{ratio}");
+        // And the margins of the levels, which are a larger part of small ones.
+        assert!((ratio - 4.0 / 3.0).abs() < 0.05, "{ratio}");
         let texels: usize = (0..10).map(|l| (1024 >> l) * (512 >> l)).sum();
         says(&format!("{:.3} of it", texels as f64 / (1024.0 * 512.0)));
         let words = PAGE.figures.iter().find(|f| f.name == "memory").unwrap().look;
