@@ -88,7 +88,7 @@ impl Area {
         let mut near = [0.0f32; BATCH];
         if s.magnify.is_apart() && !matches!(self, Self::Separable(_)) {
             for (near, f) in near.iter_mut().zip(footprints) {
-                *near = s.magnify.nearness(in_first(t, f).major_squared());
+                *near = s.magnify.nearness(f.major_squared());
             }
         }
         let near = &near[..out.len()];
@@ -151,7 +151,7 @@ fn magnified(t: &Texture, f: &Footprint, magnify: Magnify) -> [f32; 4] {
     if f.is_finite() { magnify.sample(&t.levels[0], t.wrap, &f) } else { t.average().0 }
 }
 
-/// A footprint in texels of the first level that is kept: what can be magnified is that one.
+/// A footprint in texels of the first level that is kept, which is what is magnified.
 #[inline(always)]
 fn in_first(t: &Texture, f: &Footprint) -> Footprint {
     let [su, sv] = t.levels[0].frame.scale;
@@ -172,7 +172,7 @@ pub(crate) fn cost(t: &Texture, f: &Footprint, s: &Sampler) -> usize {
     if let Area::Separable(kernel) = area {
         return place::cost(t, f, point_mode(s), kernel);
     }
-    let near = s.magnify.nearness(in_first(t, f).major_squared());
+    let near = s.magnify.nearness(f.major_squared());
     let magnified = if near > 0.0 { s.magnify.texels() } else { 0 };
     if near >= 1.0 {
         return magnified;

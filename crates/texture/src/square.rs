@@ -19,6 +19,9 @@ const DENSITY: f64 = 2.5;
 /// The fewest along a side: a pixel that is smaller than a texel has the creases between four of them.
 const LEAST: f64 = 4.0;
 
+/// The most in all, which read as many texels as an ellipse may.
+const MOST: f64 = BUDGET / 4.0;
+
 /// The variance of a square of side 1.
 const VARIANCE: f64 = 1.0 / 12.0;
 
@@ -86,8 +89,8 @@ impl Grid {
         let sides = [[j.a * su, j.c * sv], [j.b * su, j.d * sv]];
         let wanted = sides.map(|[u, v]| ceil(DENSITY * sqrt(u * u + v * v)).max(LEAST));
         // Where no coarser level takes it: fewer places, which alias.
-        let share = sqrt((BUDGET / (wanted[0] * wanted[1])).min(1.0));
-        let count = wanted.map(|n| ceil((n * share).min(BUDGET)) as u32);
+        let share = sqrt((MOST / (wanted[0] * wanted[1])).min(1.0));
+        let count = wanted.map(|n| ((n * share).min(MOST) as u32).max(1));
         Self { middle: [f.u * su - 0.5, f.v * sv - 0.5], sides, count }
     }
 
@@ -221,7 +224,7 @@ mod tests {
         for size in [0.0, 1e-9, 1.0, 37.0, 1e9] {
             let jacobian = Matrix2::new(size, 0.3, 0.1, 0.01 * size);
             let f = Footprint { u: 12.3, v: -4.0, jacobian };
-            assert!(square.cost(&t, &f) as f64 <= 16.0 * BUDGET, "{size}");
+            assert!(square.cost(&t, &f) as f64 <= 2.0 * BUDGET, "{size}");
             let color = square.sample(&t, &f);
             let [r, g, b] = [200.0, 100.0, 50.0].map(|v: f32| v / 255.0);
             for (found, expected) in color.iter().zip([r, g, b, 1.0]) {
