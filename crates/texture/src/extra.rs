@@ -7,7 +7,7 @@ use crate::radial::Radial;
 use crate::run::{Listed, Run};
 use crate::square::Square;
 use crate::texture::point_mode;
-use crate::{Footprint, Kernel, Magnify, PixelFilter, Sampler, Separable, Texture};
+use crate::{Footprint, Kernel, LevelMode, Magnify, PixelFilter, Sampler, Separable, Texture};
 use crate::{place, point, probes};
 use fearless_simd::dispatch;
 use scumble_geometry::Matrix2;
@@ -95,10 +95,12 @@ impl Area {
         if near.iter().any(|n| *n < 1.0) {
             self.fill_area(t, footprints, s, out);
         }
-        for ((out, f), &near) in out.iter_mut().zip(footprints).zip(near) {
+        let mut magnified = [Premul::TRANSPARENT; BATCH];
+        let magnified = &mut magnified[..out.len()];
+        fill_magnified(t, footprints, s.magnify, near, magnified);
+        for ((out, magnified), &near) in out.iter_mut().zip(magnified).zip(near) {
             if near > 0.0 {
-                let magnified = t.within_range(magnified(t, f, s.magnify));
-                *out = if near < 1.0 { mix(t, *out, magnified, near) } else { magnified };
+                *out = if near < 1.0 { mix(t, *out, *magnified, near) } else { *magnified };
             }
         }
     }
@@ -141,6 +143,29 @@ fn each(
         let f = t.nearer(f);
         *out =
             if f.is_finite() && f.is_bounded() { t.within_range(sample(&f)) } else { t.average() };
+    }
+}
+
+/// The magnified texture under those footprints of a batch that are `near`.
+#[inline(always)]
+fn fill_magnified(
+    t: &Texture,
+    footprints: &Footprints,
+    magnify: Magnify,
+    near: &[f32],
+    out: &mut [Premul],
+) {
+    if near.iter().all(|n| *n <= 0.0) {
+        return;
+    }
+    if magnify == Magnify::Bilinear {
+        let s = Sampler::DEFAULT.with(PixelFilter::Bilinear, LevelMode::Zero);
+        return t.fill_fast(Listed(footprints), &s, out);
+    }
+    for ((out, f), &near) in out.iter_mut().zip(footprints).zip(near) {
+        if near > 0.0 {
+            *out = t.within_range(magnified(t, f, magnify));
+        }
     }
 }
 
