@@ -44,7 +44,7 @@
 //! 4 times down. Texels are the mean over the ground plane, those of weight 0 included; time goes with
 //! them. A test holds the presets to these figures. Over the ground plane `FAST` and `DEFAULT` are
 //! bounded by its near part, where a pixel sees less than a texel and a Gaussian stands in for bilinear
-//! reconstruction; `HIGH` integrates the bilinear surface there ([`Magnify::Taps`], some 60 ns a pixel),
+//! reconstruction; `HIGH` integrates the bilinear surface there ([`Magnify::Taps`], some 180 ns a pixel),
 //! which is worth 11 to 17 dB. Toward the horizon all presets do far better than the figure. A preset is
 //! as good as its worst scale, just where the ellipse falls on a level's boundary: on text, 31, 33, 42
 //! and 66 dB.
@@ -70,11 +70,11 @@
 //!   bits and in floats are stored as floats, 16 bytes a texel, as bright as they are ([`Storage`]).
 //! - Only what is asked for is made and kept: [`Levels`] says which levels, [`TextureOptions::window`]
 //!   which part of the image, and [`TextureBuilder`] takes rows as a decoder yields them.
-//! - A pixel of the ground plane, on one core of a server (Zen 4, 512-bit vectors) by
-//!   [`Texture::sample_row`]: nearest 5 ns, bilinear 10, trilinear 14, [`Sampler::FAST`] 49,
-//!   [`Sampler::DEFAULT`] 75, of which some 15 are set-up; every texel that an ellipse reads takes
-//!   0.7 to 1 more. [`Texture::sample`] sets up one pixel at a time and is slower; runs of four and more
-//!   pixels are worth a row.
+//! - A pixel of the ground plane (`cargo bench`, one core of a server with 512-bit vectors) by
+//!   [`Texture::sample_row`]: nearest 6 ns, bilinear 12, trilinear 15, [`Sampler::FAST`] 38 and
+//!   [`Sampler::DEFAULT`] 61, of which some 15 are set-up; each of the 30 and 56 texels that they read
+//!   takes about ¾ more. [`Texture::sample`] sets up one pixel at a time and is slower; runs of four and
+//!   more pixels are worth a row.
 //! - A pyramid takes about as long to make as fresh memory from the system does: [`Texture::renewed`]
 //!   makes one in the memory of another.
 //!
