@@ -4,7 +4,7 @@
 
 use scumble::geometry::{Affine, DVec2, Homography, IntRect, Rect};
 use scumble::pixel::{Image, Straight, WorkingSpace};
-use scumble::texture::{Footprint, TextureOptions};
+use scumble::texture::{Footprint, Levels, TextureOptions};
 use scumble::texture::{LevelMode, Magnify, PixelFilter, Sampler, Separable, Texture};
 use scumble::warp::{Border, Warp, WarpError};
 use scumble::{Control, ImageSink, Sink};
@@ -195,7 +195,10 @@ fn only_the_levels_that_are_read_are_kept() {
         Warp::new(map, side, side).prepare(&source.view()).unwrap().stats().texture_bytes
     };
     let all = Texture::memory_for(256, 256, &TextureOptions::default()).unwrap();
-    assert_eq!(bytes(1.0, 256), all);
+    // At its own size only the source is read, at half of it a level beside it.
+    let base = TextureOptions { levels: Levels::BaseOnly, ..TextureOptions::default() };
+    assert_eq!(Some(bytes(1.0, 256)), Texture::memory_for(256, 256, &base));
+    assert_eq!(bytes(2.0, 128), all);
     // Level 2, and what is coarser.
     assert!(bytes(8.0, 32) < all / 8, "{} of {all}", bytes(8.0, 32));
     // 13 texels on each side, and the margin.

@@ -143,7 +143,8 @@ pub(crate) struct Filter {
 
     /// What texels are weighed by [default: the quality's; gaussian, and triangle for classic]
     ///
-    /// All but the Gaussian are slower.
+    /// All but the Gaussian are slower. `box` is the mean over the pixel's square, to compare with area
+    /// averaging.
     #[arg(long, value_parser = value::kernel())]
     pub(crate) kernel: Option<Kernel>,
 
