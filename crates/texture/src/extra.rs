@@ -82,13 +82,24 @@ impl Area {
         }
     }
 
+    /// How much of a footprint's colour is what is magnified apart.
+    #[inline(always)]
+    fn nearness(&self, magnify: Magnify, f: &Footprint) -> f32 {
+        match (self, magnify) {
+            (Self::Separable(_), _) => 0.0,
+            // The square is over the bilinear surface by itself, and the taps are of a Gaussian.
+            (Self::Square(_), Magnify::Taps) => 0.0,
+            _ => magnify.nearness(f.major_squared()),
+        }
+    }
+
     /// The filter of the area, and of the place where that is magnified.
     #[inline(always)]
     fn fill(&self, t: &Texture, footprints: &Footprints, s: &Sampler, out: &mut [Premul]) {
         let mut near = [0.0f32; BATCH];
-        if s.magnify.is_apart() && !matches!(self, Self::Separable(_)) {
+        if s.magnify.is_apart() {
             for (near, f) in near.iter_mut().zip(footprints) {
-                *near = s.magnify.nearness(f.major_squared());
+                *near = self.nearness(s.magnify, f);
             }
         }
         let near = &near[..out.len()];
@@ -197,7 +208,7 @@ pub(crate) fn cost(t: &Texture, f: &Footprint, s: &Sampler) -> usize {
     if let Area::Separable(kernel) = area {
         return place::cost(t, f, point_mode(s), kernel);
     }
-    let near = s.magnify.nearness(f.major_squared());
+    let near = area.nearness(s.magnify, f);
     let magnified = if near > 0.0 { s.magnify.texels() } else { 0 };
     if near >= 1.0 {
         return magnified;
