@@ -4,6 +4,7 @@
 
 use crate::abreast::{Sheet, Walks};
 use crate::covariance::{Covariance, LEAST_VARIANCE, PIXEL_VARIANCE, RECONSTRUCTION};
+use crate::engine::{Engine, Vector};
 use crate::ewa::{BAND, BAND_START, Limits, walk_in};
 use crate::gaussian::UNIT;
 use crate::level::{Frame, Level};
@@ -11,7 +12,7 @@ use crate::math::{WHOLE, sqrt32};
 use crate::point::lerp;
 use crate::run::{ABREAST, Run, Sixteen};
 use crate::walk::{ASIDE, FARTHEST, LANES, SMALL, THIN};
-use crate::{Texture, abreast, walk_simd};
+use crate::{Texture, abreast};
 use fearless_simd::{Simd, f32x4, f32x16, f64x8, i32x16, mask32x16, prelude::*};
 use scumble_pixel::Premul;
 
@@ -33,8 +34,8 @@ pub(crate) fn fill<S: Simd>(
     let mut sheet = Sheet::default();
     for (chunk, out) in out.chunks_mut(ABREAST).enumerate() {
         let spots = run.sixteen(simd, t, chunk * ABREAST);
-        let ellipses = Ellipses::of(simd, &spots, limits);
-        let picks = Picks::new(simd, ellipses.minor * limits.inverse_least, t, limits.blend);
+        let (ellipses, minor) = Ellipses::of(simd, &spots, limits);
+        let picks = Picks::new(simd, minor * limits.inverse_least, t, limits.blend);
         let asked = (1u64 << out.len()) - 1;
         let usable = spots.usable.to_bitmask() & asked;
         let mut batch = Batch { simd, t, limits, spots: &spots, ellipses, sheet: &mut sheet };
@@ -87,14 +88,12 @@ struct Ellipses<S: Simd> {
     uv: f32x16<S>,
     vv: f32x16<S>,
     det: f32x16<S>,
-    /// V₂.
-    minor: f32x16<S>,
 }
 
 impl<S: Simd> Ellipses<S> {
     /// [`Covariance::of`].
     #[inline(always)]
-    fn of(simd: S, spots: &Sixteen<S>, limits: &Limits) -> Self {
+    fn of(simd: S, spots: &Sixteen<S>, limits: &Limits) -> (Self, f32x16<S>) {
         let zero = f32x16::splat(simd, 0.0);
         let [a, b, c, d] = spots.jacobian;
         let p = a * a + b * b;
@@ -111,13 +110,13 @@ impl<S: Simd> Ellipses<S> {
         let wide = v2.simd_gt(least).select(v2, least);
         let k = (wide - v2) * 0.5 / h;
         let k = h.simd_gt(zero).select(k, zero);
-        Self {
+        let sigma = Self {
             uu: (p * PIXEL_VARIANCE + RECONSTRUCTION) + k * (h - x),
             uv: q * PIXEL_VARIANCE - k * y,
             vv: (r * PIXEL_VARIANCE + RECONSTRUCTION) + k * (h + x),
             det: v1 * wide,
-            minor: wide,
-        }
+        };
+        (sigma, wide)
     }
 
     /// [`Covariance::at_level`].
@@ -129,7 +128,6 @@ impl<S: Simd> Ellipses<S> {
             uv: self.uv * ss_uv,
             vv: (self.vv - mv) * ss_v,
             det: ((self.det - self.vv * mu) - (self.uu - mu) * mv) * all,
-            minor: self.minor,
         }
     }
 
@@ -224,10 +222,7 @@ impl<S: Simd> Batch<'_, S> {
             let u = self.spots.u[i / 8].to_array()[i % 8];
             let v = self.spots.v[i / 8].to_array()[i % 8];
             let walk = walk_in(self.t, index, u, v, sigma.get(i), self.limits);
-            out[i] = simd.vectorize(
-                #[inline(always)]
-                || walk_simd::walk(simd, level, self.t.wrap, &walk),
-            );
+            out[i] = Vector(simd).walk(level, self.t.wrap, &walk);
         }
     }
 

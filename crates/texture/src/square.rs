@@ -8,10 +8,10 @@
 use crate::ewa::{BUDGET, Limits, auto_pick};
 use crate::level::Level;
 use crate::lod::{self, Pick};
-use crate::math::{ceil, floor32, sqrt};
+use crate::math::{ceil, floor, floor32, sqrt};
 use crate::point::lerp;
-use crate::texel::{STEP, steps};
-use crate::{Footprint, LevelMode, Sampler, Texture, place};
+use crate::texel::STEP;
+use crate::{Footprint, LevelMode, Sampler, Texture, place, point};
 
 /// Places to a texel, along each side.
 const DENSITY: f64 = 2.5;
@@ -99,14 +99,13 @@ impl Grid {
     fn mean(&self, t: &Texture, level: &Level) -> [f32; 4] {
         let [u, v] = self.middle;
         let about = place::bilinear(level, t.wrap, u + 0.5, v + 0.5);
-        let [x0, y0] = [u, v].map(crate::math::floor);
+        let [x0, y0] = [u, v].map(floor);
+        let rest = [(u - x0) as f32, (v - y0) as f32];
         let sum = if !level.is_float() && self.inside(level, [x0, y0]) {
             let first = level.index(x0 as i32, y0 as i32);
             let scale = about.map(|v| v * (1.0 / STEP));
-            let rest = [(u - x0) as f32, (v - y0) as f32];
             self.sum(rest, scale, |[u, v]| in_place(level, first, u, v)).map(|v| v * STEP)
         } else {
-            let rest = [(u - x0) as f32, (v - y0) as f32];
             self.sum(rest, about, |[u, v]| {
                 let (u, v) = (f64::from(u) + x0 + 0.5, f64::from(v) + y0 + 0.5);
                 place::bilinear(level, t.wrap, u, v)
@@ -165,13 +164,12 @@ fn in_place(level: &Level, first: usize, u: f32, v: f32) -> [f32; 4] {
     let (fx, fy) = (u - x, v - y);
     let offset = (y as isize).wrapping_mul(level.stride as isize).wrapping_add(x as isize);
     let top = first.wrapping_add(offset as usize);
-    let pair = |i: usize| match level.texels.get(i..i.wrapping_add(2)) {
-        Some([left, right]) => [steps(*left), steps(*right)],
-        // Every index is in range; and if it were not, this would be no panic.
-        _ => [[0.0; 4]; 2],
+    // Every index is in range; and if it were not, the texels would be black, and no panic.
+    let pair = |i: usize| {
+        let rest = level.texels.get(i..).unwrap_or_default();
+        rest.first_chunk().unwrap_or(&[[0; 4]; 2])
     };
-    let ([a, b], [c, d]) = (pair(top), pair(top.wrapping_add(level.stride)));
-    lerp(lerp(a, c, fy), lerp(b, d, fy), fx)
+    point::bilinear(pair(top), pair(top.wrapping_add(level.stride)), fx, fy)
 }
 
 #[cfg(test)]
