@@ -6,6 +6,7 @@
 
 use crate::batch::lanes;
 use crate::level::Level;
+use crate::magnify::patch::Patch;
 use crate::run::ABREAST;
 use crate::texel::ROUNDER;
 use crate::walk::{LANES, Walk, mean};
@@ -54,6 +55,22 @@ impl Default for Sheet {
     }
 }
 
+impl Sheet {
+    #[inline(always)]
+    fn put<S: Simd>(&mut self, quad: usize, left: i32x16<S>, right: i32x16<S>, at: i32x16<S>) {
+        store(&mut self.weights[quad], left, right);
+        self.at[quad] = at.to_array();
+    }
+}
+
+/// Keeps the weights of a quad of each lane: the pair on the left and that on the right, lane by lane.
+#[inline(always)]
+fn store<S: Simd>(weights: &mut [i32; 2 * ABREAST], left: i32x16<S>, right: i32x16<S>) {
+    let (low, high) = weights.split_at_mut(ABREAST);
+    left.zip_low(right).store_slice(low);
+    left.zip_high(right).store_slice(high);
+}
+
 /// The colours of the walks whose bits are set.
 #[inline(always)]
 pub(crate) fn walk_all<S: Simd>(
@@ -99,6 +116,60 @@ pub(crate) fn walk_all<S: Simd>(
     for i in lanes(empty & wanted) {
         out[i] = walks.get(i).centre(level, t.wrap);
     }
+}
+
+/// The means of the texels of patches whose bits are set, from the spots that they count from; of those
+/// which can be read in place, whose bits it returns.
+#[inline(always)]
+pub(crate) fn average_all<S: Simd, const C: usize, const R: usize>(
+    simd: S,
+    level: &Level,
+    patch: &Patch<f32x16<S>, C, R>,
+    base: [i32x16<S>; 2],
+    wanted: u64,
+    sheet: &mut Sheet,
+    out: &mut [[f32; 4]; ABREAST],
+) -> u64 {
+    const { assert!(R * C.div_ceil(LANES) <= QUADS) };
+    let [x, y] = [base[0] + patch.low[0].to_int::<i32x16<S>>(), base[1] + patch.low[1].to_int::<i32x16<S>>()];
+    let (frame, columns) = (&level.frame, C.next_multiple_of(LANES) as i32);
+    let ([low_x, low_y], [high_x, high_y]) = (frame.low, frame.high);
+    let inside = x.simd_ge(low_x)
+        & x.simd_le(high_x.saturating_sub(columns - 1))
+        & y.simd_ge(low_y)
+        & y.simd_le(high_y.saturating_sub(R as i32 - 1));
+    let done = inside.to_bitmask() & wanted;
+    let mut totals = i32x16::splat(simd, 0);
+    let mut used = 0;
+    let x = x & level.mask[0];
+    for (r, row) in patch.weights.iter().enumerate() {
+        // After the masks, every sum here is an index of a texel, and fits 31 bits.
+        let at = ((y + r as i32) & level.mask[1]) * (level.stride as i32) + x - level.base;
+        for (q, weights) in row.chunks(LANES).enumerate() {
+            let mut quad = [f32x16::splat(simd, 0.0); LANES];
+            quad[..weights.len()].copy_from_slice(weights);
+            let [left, right] = [pair(simd, quad[0], quad[1]), pair(simd, quad[2], quad[3])];
+            let both = left.bitcast::<i16x32<S>>() + right.bitcast::<i16x32<S>>();
+            totals += both.pairwise_dot_product(i16x32::splat(simd, 1));
+            sheet.put(used, left, right, inside.select(at + (q * LANES) as i32, i32x16::splat(simd, 0)));
+            used += 1;
+        }
+    }
+    let mut sums = Sums::Small([[0; 4]; ABREAST]);
+    sums.gather(simd, level, done, sheet, used);
+    let totals = totals.to_array();
+    for i in lanes(done) {
+        out[i] = sums.mean(i, totals[i]);
+    }
+    done
+}
+
+/// Two weights, rounded to whole numbers, in the low and the high halves of the lanes.
+#[inline(always)]
+fn pair<S: Simd>(simd: S, first: f32x16<S>, second: f32x16<S>) -> i32x16<S> {
+    let rounder = f32x16::splat(simd, ROUNDER);
+    let first = (first + rounder).bitcast::<i32x16<S>>() & 0xffff;
+    first | ((second + rounder).bitcast::<i32x16<S>>() << 16)
 }
 
 /// The largest of sixteen.
@@ -166,9 +237,7 @@ impl<S: Simd> Walks<S> {
         let right = self.pair(simd, e, offset + 2.0);
         let both = (left + right).bitcast::<i16x32<S>>();
         *totals += both.pairwise_dot_product(i16x32::splat(simd, 1));
-        let (low, high) = weights.split_at_mut(ABREAST);
-        left.zip_low(right).store_slice(low);
-        left.zip_high(right).store_slice(high);
+        store(weights, left, right);
         // After the masks, every sum here is an index of a texel, and fits 31 bits.
         let y = (j.to_int::<i32x16<S>>() + self.y0) & level.mask[1];
         let x = (before.to_int::<i32x16<S>>() + self.x0 + (1 + shift)) & level.mask[0];

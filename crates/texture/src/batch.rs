@@ -8,6 +8,7 @@ use crate::engine::{Engine, Vector};
 use crate::ewa::{BAND, BAND_START, Limits, walk_in};
 use crate::gaussian::UNIT;
 use crate::level::{Frame, Level};
+use crate::magnify::patch::{Spot, Spotted};
 use crate::math::{WHOLE, sqrt32};
 use crate::point::lerp;
 use crate::run::{ABREAST, Run, Sixteen};
@@ -34,14 +35,16 @@ pub(crate) fn fill<S: Simd>(
     let mut sheet = Sheet::default();
     for (chunk, out) in out.chunks_mut(ABREAST).enumerate() {
         let spots = run.sixteen(simd, t, chunk * ABREAST);
-        let (ellipses, minor) = Ellipses::of(simd, &spots, limits);
+        let (ellipses, axes, minor) = Ellipses::of(simd, &spots, limits);
+        let near = limits.magnify.nearness(axes);
         let picks = Picks::new(simd, minor * limits.inverse_least, t, limits.blend);
         let asked = (1u64 << out.len()) - 1;
         let usable = spots.usable.to_bitmask() & asked;
         let mut batch = Batch { simd, t, limits, spots: &spots, ellipses, sheet: &mut sheet };
         let mut colors = [[0.0; 4]; ABREAST];
-        batch.fill(picks.level, usable, &mut colors);
-        let blends = picks.coarser.simd_gt(0.0).to_bitmask() & usable;
+        let far = near.simd_lt(1.0).to_bitmask() & usable;
+        batch.fill(picks.level, far, &mut colors);
+        let blends = picks.coarser.simd_gt(0.0).to_bitmask() & far;
         if blends != 0 {
             let mut next = [[0.0; 4]; ABREAST];
             batch.fill(picks.level + 1, blends, &mut next);
@@ -49,6 +52,10 @@ pub(crate) fn fill<S: Simd>(
             for i in lanes(blends) {
                 colors[i] = lerp(colors[i], next[i], coarser[i]);
             }
+        }
+        let close = near.simd_gt(0.0).to_bitmask() & usable;
+        if close != 0 {
+            batch.magnify(close, far, &near.to_array(), &mut colors);
         }
         for (out, color) in out.iter_mut().zip(colors) {
             *out = within(simd, color);
@@ -93,7 +100,7 @@ struct Ellipses<S: Simd> {
 impl<S: Simd> Ellipses<S> {
     /// [`Covariance::of`].
     #[inline(always)]
-    fn of(simd: S, spots: &Sixteen<S>, limits: &Limits) -> (Self, f32x16<S>) {
+    fn of(simd: S, spots: &Sixteen<S>, limits: &Limits) -> (Self, [f32x16<S>; 2], f32x16<S>) {
         let zero = f32x16::splat(simd, 0.0);
         let [a, b, c, d] = spots.jacobian;
         let p = a * a + b * b;
@@ -116,7 +123,7 @@ impl<S: Simd> Ellipses<S> {
             vv: (r * PIXEL_VARIANCE + RECONSTRUCTION) + k * (h + x),
             det: v1 * wide,
         };
-        (sigma, wide)
+        (sigma, [s1, s2], wide)
     }
 
     /// [`Covariance::at_level`].
@@ -223,6 +230,43 @@ impl<S: Simd> Batch<'_, S> {
             let v = self.spots.v[i / 8].to_array()[i % 8];
             let walk = walk_in(self.t, index, u, v, sigma.get(i), self.limits);
             out[i] = Vector(simd).walk(level, self.t.wrap, &walk);
+        }
+    }
+
+    /// Puts what is magnified apart in the place of colours, or, of those that are `far` too, so much of
+    /// it beside them.
+    #[inline(always)]
+    fn magnify(&mut self, close: u64, far: u64, near: &[f32; ABREAST], colors: &mut Colors) {
+        let mut magnified = [[0.0; 4]; ABREAST];
+        self.fill_magnified(close, &mut magnified);
+        for i in lanes(close & !far) {
+            colors[i] = magnified[i];
+        }
+        for i in lanes(close & far) {
+            colors[i] = lerp(colors[i], magnified[i], near[i]);
+        }
+    }
+
+    /// [`Magnify::sample`](crate::Magnify::sample) in the first level that is kept.
+    #[inline(always)]
+    fn fill_magnified(&mut self, wanted: u64, out: &mut Colors) {
+        let (simd, magnify) = (self.simd, self.limits.magnify);
+        let Some(level) = self.t.levels.first() else { return };
+        let [su, sv] = level.frame.scale;
+        let (x0, x) = place(self.spots.u, su);
+        let (y0, y) = place(self.spots.v, sv);
+        let Sixteen { jacobian, determinant, .. } = *self.spots;
+        let spot = Spot { x, y, jacobian, determinant }.scaled([su, sv]);
+        let done = magnify.average_all(simd, level, &spot, [x0, y0], wanted, self.sheet, out);
+        for i in lanes(wanted & !done) {
+            let base = [x0.to_array()[i], y0.to_array()[i]];
+            let spot = Spot {
+                x: spot.x.to_array()[i],
+                y: spot.y.to_array()[i],
+                jacobian: spot.jacobian.map(|lanes| lanes.to_array()[i]),
+                determinant: spot.determinant.to_array()[i],
+            };
+            out[i] = magnify.sample(level, self.t.wrap, &Spotted { base, spot });
         }
     }
 

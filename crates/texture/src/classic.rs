@@ -68,14 +68,14 @@ impl Classic {
 
     /// The colour of one footprint, its centre brought near and its Jacobian bounded.
     pub(crate) fn sample(&self, t: &Texture, f: &Footprint) -> [f32; 4] {
-        let weights = Mixture::new(&self.sampler, nearness(f.major_squared()));
+        let weights = Mixture::new(&self.sampler, nearness(f.major_squared() as f32));
         let over = |level: &Level, walk: &Walk| walk.average(level, t.wrap, &weights);
         self.over_levels(t, f, weights.radius(), over, lerp)
     }
 
     /// Texels that [`Classic::sample`] reads.
     pub(crate) fn cost(&self, t: &Texture, f: &Footprint) -> usize {
-        let weights = Mixture::new(&self.sampler, nearness(f.major_squared()));
+        let weights = Mixture::new(&self.sampler, nearness(f.major_squared() as f32));
         self.over_levels(t, f, weights.radius(), |_, walk| walk.texels(), |a, b, _| a + b)
     }
 
@@ -223,7 +223,7 @@ mod tests {
         let n = n.max(m / f64::from(s.max_eccentricity).powi(2));
         let detail = (n.sqrt() / (2.0 * f64::from(s.least_sigma))).log2() - 1.0;
         let detail = detail.clamp(0.0, t.levels.len() as f64 - 1.0);
-        let weights = Mixture::new(s, nearness(f.major_squared()));
+        let weights = Mixture::new(s, nearness(f.major_squared() as f32));
         let in_level = |index: usize| -> [f64; 4] {
             let level = &t.levels[index];
             let [su, sv] = level.frame.scale;

@@ -25,7 +25,7 @@ pub(crate) struct Covariance {
 
 impl Covariance {
     /// Pixel and reconstruction together, for a Jacobian in texels per pixel, with the minor axis
-    /// widened to the largest ratio; and the variance V₂ along the minor axis.
+    /// widened to the largest ratio; s₁² and s₂²; and the variance V₂ along the minor axis.
     ///
     /// With p, q, r the entries of JJᵀ and h = hypot(p − r, 2q), the squared singular values are
     /// s₁² = (p + r + h)/2 and s₂² = det²J/s₁² (the quadratic formula would lose s₂ to
@@ -33,7 +33,7 @@ impl Covariance {
     /// angle and no direction is needed. Only det J cancels, so it is found in double precision; all
     /// else are sums of what is positive, or of what does not count where it cancels.
     #[inline(always)]
-    pub(crate) fn of(j: &Matrix2, inverse_ratio: f32) -> (Self, f32) {
+    pub(crate) fn of(j: &Matrix2, inverse_ratio: f32) -> (Self, [f32; 2], f32) {
         let determinant = j.determinant() as f32;
         let [a, b, c, d] = [j.a, j.b, j.c, j.d].map(|v| v as f32);
         let p = a * a + b * b;
@@ -55,7 +55,7 @@ impl Covariance {
             vv: (PIXEL_VARIANCE * r + RECONSTRUCTION) + k * (h + x),
             det: v1 * wide,
         };
-        (sigma, wide)
+        (sigma, [s1, s2], wide)
     }
 
     /// S(Σ − M)S: in texels of a level, without what the pyramid has blurred.

@@ -6,7 +6,8 @@ use crate::gaussian::UNIT;
 use crate::lod::{self, Pick};
 use crate::point::lerp;
 use crate::walk::{Place, Walk};
-use crate::{Footprint, LevelMode, Sampler, Texture, walk_float};
+use crate::magnify::patch::Spotted;
+use crate::{Footprint, LevelMode, Magnify, Sampler, Texture, walk_float};
 use scumble_geometry::Matrix2;
 
 /// The area of an ellipse, in texels of the level that is read, that is always allowed. A larger
@@ -36,6 +37,7 @@ pub(crate) struct Limits {
     pub(crate) blend: bool,
     /// ½R², in [`UNIT`]s: weights whose exponent is above it are 0.
     pub(crate) cut: f32,
+    pub(crate) magnify: Magnify,
 }
 
 impl Limits {
@@ -56,6 +58,7 @@ impl Limits {
             most_det: (axes * axes) as f32,
             blend: s.blend,
             cut: (0.5 * radius * radius) as f32 * UNIT,
+            magnify: s.magnify,
         }
     }
 }
@@ -69,19 +72,22 @@ struct Plan<'a> {
     pick: Pick,
     /// The ellipse in level 0, where the levels come from it.
     sigma: Option<Covariance>,
+    /// How much of the colour is what is magnified apart.
+    near: f32,
 }
 
 impl<'a> Plan<'a> {
     #[inline(always)]
     fn new(t: &'a Texture, f: &'a Footprint, mode: LevelMode, limits: &'a Limits) -> Self {
+        let (sigma, axes, minor) = Covariance::of(&f.jacobian, limits.inverse_ratio);
+        let near = limits.magnify.nearness(axes);
         if mode != LevelMode::Auto {
             let step = f.longest_step_squared();
             let pick = lod::pick(step, lod::detail(step), mode, t.range());
-            return Self { t, f, limits, pick, sigma: None };
+            return Self { t, f, limits, pick, sigma: None, near };
         }
-        let (sigma, minor) = Covariance::of(&f.jacobian, limits.inverse_ratio);
         let pick = auto_pick(minor * limits.inverse_least, t.range(), limits.blend);
-        Self { t, f, limits, pick, sigma: Some(sigma) }
+        Self { t, f, limits, pick, sigma: Some(sigma), near }
     }
 
     /// The walk in one of the levels.
@@ -109,6 +115,23 @@ impl<'a> Plan<'a> {
         }
         engine.walk(level, self.t.wrap, &walk)
     }
+
+    /// The colour of the ellipse.
+    #[inline(always)]
+    fn far(&self, engine: impl Engine) -> [f32; 4] {
+        let Pick { level, coarser } = self.pick;
+        let fine = self.filter(engine, level);
+        if coarser > 0.0 { lerp(fine, self.filter(engine, level + 1), coarser) } else { fine }
+    }
+
+    /// What is magnified apart, in the first level that is kept.
+    #[inline(always)]
+    fn close(&self) -> [f32; 4] {
+        let Footprint { u, v, jacobian } = self.f;
+        let level = &self.t.levels[0];
+        let at = Spotted::new(level, *u, *v, jacobian);
+        self.limits.magnify.sample(level, self.t.wrap, &at)
+    }
 }
 
 /// The colour of one footprint, its centre brought near and its Jacobian bounded.
@@ -121,16 +144,23 @@ pub(crate) fn sample(
     limits: &Limits,
 ) -> [f32; 4] {
     let plan = Plan::new(t, f, mode, limits);
-    let Pick { level, coarser } = plan.pick;
-    let fine = plan.filter(engine, level);
-    if coarser > 0.0 { lerp(fine, plan.filter(engine, level + 1), coarser) } else { fine }
+    if plan.near >= 1.0 {
+        return plan.close();
+    }
+    let far = plan.far(engine);
+    if plan.near > 0.0 { lerp(far, plan.close(), plan.near) } else { far }
 }
 
 /// Texels that [`sample`] reads.
 pub(crate) fn cost(t: &Texture, f: &Footprint, mode: LevelMode, limits: &Limits) -> usize {
     let plan = Plan::new(t, f, mode, limits);
     let Pick { level, coarser } = plan.pick;
-    plan.walk(level).texels() + if coarser > 0.0 { plan.walk(level + 1).texels() } else { 0 }
+    let close = if plan.near > 0.0 { limits.magnify.texels() } else { 0 };
+    if plan.near >= 1.0 {
+        return close;
+    }
+    let next = if coarser > 0.0 { plan.walk(level + 1).texels() } else { 0 };
+    close + plan.walk(level).texels() + next
 }
 
 /// The level where σ of the minor axis is between s and 2s, from V₂/s², and how much of the next; of

@@ -3,6 +3,7 @@
 //! Some footprints at a time; what the fast path can do of them it does.
 
 use crate::classic::Classic;
+use crate::magnify::patch::Spotted;
 use crate::radial::Radial;
 use crate::run::{Listed, Run};
 use crate::square::Square;
@@ -10,7 +11,6 @@ use crate::texture::point_mode;
 use crate::{Footprint, Kernel, LevelMode, Magnify, PixelFilter, Sampler, Separable, Texture};
 use crate::{place, point, probes};
 use fearless_simd::dispatch;
-use scumble_geometry::Matrix2;
 use scumble_pixel::Premul;
 
 /// Pixels at a time: the fast path has a start-up cost.
@@ -24,7 +24,7 @@ type Footprints = [Footprint; BATCH];
 pub(crate) fn takes(s: &Sampler) -> bool {
     match s.pixel {
         PixelFilter::Nearest | PixelFilter::Bilinear => false,
-        PixelFilter::Ewa => s.kernel != Kernel::Gaussian || s.magnify != Magnify::None,
+        PixelFilter::Ewa => s.kernel != Kernel::Gaussian || matches!(s.magnify, Magnify::Radial(_)),
         PixelFilter::Separable(_) | PixelFilter::Probes | PixelFilter::Classic => true,
     }
 }
@@ -51,7 +51,6 @@ fn fill_impl(t: &Texture, run: impl Run, s: &Sampler, out: &mut [Premul]) {
 
 /// A filter, made ready.
 enum Area {
-    Gaussian,
     Radial(Radial),
     Square(Square),
     Classic(Classic),
@@ -76,7 +75,6 @@ impl Area {
         }
         match (s.kernel, s.magnify) {
             (_, Magnify::Radial(_)) => Self::Radial(Radial::new(s)),
-            (Kernel::Gaussian, _) => Self::Gaussian,
             (Kernel::Box, _) => Self::Square(Square::new(s)),
             _ => Self::Radial(Radial::new(s)),
         }
@@ -87,9 +85,9 @@ impl Area {
     fn nearness(&self, magnify: Magnify, f: &Footprint) -> f32 {
         match (self, magnify) {
             (Self::Separable(_), _) => 0.0,
-            // The square is over the bilinear surface by itself, and the taps are of a Gaussian.
-            (Self::Square(_), Magnify::Taps) => 0.0,
-            _ => magnify.nearness(f.major_squared()),
+            // They are of the Gaussian.
+            (_, Magnify::Taps) => 0.0,
+            _ => magnify.nearness([f.major_squared() as f32, 0.0]),
         }
     }
 
@@ -119,10 +117,6 @@ impl Area {
     #[inline(always)]
     fn fill_area(&self, t: &Texture, footprints: &Footprints, s: &Sampler, out: &mut [Premul]) {
         match self {
-            Self::Gaussian => {
-                let s = Sampler { magnify: Magnify::None, ..*s };
-                t.fill_fast(Listed(footprints), &s, out);
-            }
             Self::Separable(kernel) => {
                 let mode = point_mode(s);
                 for (out, f) in out.iter_mut().zip(footprints) {
@@ -183,17 +177,12 @@ fn fill_magnified(
 /// The magnified texture under a footprint.
 #[inline(always)]
 fn magnified(t: &Texture, f: &Footprint, magnify: Magnify) -> [f32; 4] {
-    let f = in_first(t, &t.nearer(f));
-    if f.is_finite() { magnify.sample(&t.levels[0], t.wrap, &f) } else { t.average().0 }
-}
-
-/// A footprint in texels of the first level that is kept, which is what is magnified.
-#[inline(always)]
-fn in_first(t: &Texture, f: &Footprint) -> Footprint {
-    let [su, sv] = t.levels[0].frame.scale;
-    let Matrix2 { a, b, c, d } = f.jacobian;
-    let jacobian = Matrix2::new(a * su, b * su, c * sv, d * sv);
-    Footprint { u: f.u * su, v: f.v * sv, jacobian }
+    let f = t.nearer(f);
+    if !f.is_finite() {
+        return t.average().0;
+    }
+    let level = &t.levels[0];
+    magnify.sample(level, t.wrap, &Spotted::new(level, f.u, f.v, &f.jacobian))
 }
 
 /// a + (b − a)·part, no brighter than its alpha.
@@ -219,7 +208,6 @@ pub(crate) fn cost(t: &Texture, f: &Footprint, s: &Sampler) -> usize {
     magnified
         + match area {
             Area::Separable(_) => 0,
-            Area::Gaussian => t.cost_fast(f, &Sampler { magnify: Magnify::None, ..*s }),
             Area::Radial(radial) => radial.cost(t, f),
             Area::Square(square) => square.cost(t, f),
             Area::Classic(classic) => classic.cost(t, f),

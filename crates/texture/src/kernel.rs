@@ -1,4 +1,5 @@
 use crate::math::sqrt32;
+use crate::number::Number;
 
 /// A filter's weight as a function of the distance from its centre alone, up to a scale.
 ///
@@ -236,12 +237,22 @@ fn smooth(r2: f32) -> f32 {
 /// equation 8) at a distance r ≥ 0: B = C = ⅓ is theirs, B = 0 and C = ½ is Catmull and Rom's.
 #[inline(always)]
 pub(crate) fn cubic(r: f32, b: f32, c: f32) -> f32 {
-    let near = (12.0 - 9.0 * b - 6.0 * c) * r + (-18.0 + 12.0 * b + 6.0 * c);
-    let near = near * (r * r) + (6.0 - 2.0 * b);
-    let far = ((-b - 6.0 * c) * r + (6.0 * b + 30.0 * c)) * r + (-12.0 * b - 48.0 * c);
-    let far = far * r + (8.0 * b + 24.0 * c);
-    let value = if r < 1.0 { near } else { far };
-    if r < 2.0 { value * (1.0 / 6.0) } else { 0.0 }
+    let value = if r < 1.0 { cubic_within(r, b, c) } else { cubic_beyond(r, b, c) };
+    if r < 2.0 { value } else { 0.0 }
+}
+
+/// [`cubic`] where r ≤ 1.
+#[inline(always)]
+pub(crate) fn cubic_within<N: Number>(r: N, b: f32, c: f32) -> N {
+    let slope = r * (12.0 - 9.0 * b - 6.0 * c) + (-18.0 + 12.0 * b + 6.0 * c);
+    (slope * (r * r) + (6.0 - 2.0 * b)) * (1.0 / 6.0)
+}
+
+/// [`cubic`] where 1 ≤ r ≤ 2.
+#[inline(always)]
+pub(crate) fn cubic_beyond<N: Number>(r: N, b: f32, c: f32) -> N {
+    let slope = (r * (-b - 6.0 * c) + (6.0 * b + 30.0 * c)) * r + (-12.0 * b - 48.0 * c);
+    (slope * r + (8.0 * b + 24.0 * c)) * (1.0 / 6.0)
 }
 
 /// ⅓, for [`cubic`].

@@ -1,5 +1,5 @@
 use crate::pyramid::plan::Span;
-use crate::texel::{Cell, STEP, Texel, color, of_color, steps};
+use crate::texel::{Cell, STEP, Texel, color, of_color};
 use crate::{TextureError, Wrap};
 use alloc::{vec, vec::Vec};
 use scumble_pixel::ImageView;
@@ -275,12 +275,6 @@ impl Level {
     #[inline(always)]
     pub(crate) fn unit(&self) -> f32 {
         if self.is_float() { 1.0 } else { STEP }
-    }
-
-    /// The colour of the texel at (x, y) in [`Level::unit`]s.
-    #[inline(always)]
-    pub(crate) fn numbers(&self, x: i32, y: i32, wrap: Wrap) -> [f32; 4] {
-        if self.is_float() { self.texel(x, y, wrap) } else { steps(self.stored(x, y, wrap)) }
     }
 
     /// The mean of the texels that are kept.

@@ -2,6 +2,7 @@
 
 use crate::level::Level;
 use crate::lod::{self, Pick};
+use crate::magnify::patch::Spotted;
 use crate::math::floor;
 use crate::point::lerp;
 use crate::{Footprint, LevelMode, Separable, Texture, Wrap};
@@ -22,8 +23,7 @@ pub(crate) fn bilinear(level: &Level, wrap: Wrap, u: f64, v: f64) -> [f32; 4] {
 pub(crate) fn sample(t: &Texture, f: &Footprint, mode: LevelMode, kernel: Separable) -> [f32; 4] {
     let in_level = |index: usize| {
         let level = &t.levels[index];
-        let [su, sv] = level.frame.scale;
-        kernel.sample(level, t.wrap, f.u * su, f.v * sv)
+        kernel.sample(level, t.wrap, &Spotted::new(level, f.u, f.v, &f.jacobian))
     };
     let Pick { level, coarser } = pick(t, f, mode);
     let fine = in_level(level);

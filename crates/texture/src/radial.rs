@@ -60,7 +60,7 @@ impl Radial {
     /// The colour of one footprint, its centre brought near and its Jacobian bounded.
     #[inline(always)]
     pub(crate) fn sample(&self, t: &Texture, f: &Footprint) -> [f32; 4] {
-        let weights = Mixture::new(&self.sampler, nearness(f.major_squared()));
+        let weights = Mixture::new(&self.sampler, nearness(f.major_squared() as f32));
         self.over_levels(t, f, |level, rows| Self::average(level, t, rows, &weights), lerp)
     }
 
@@ -225,7 +225,7 @@ mod tests {
             [v, v / 2, 255 - v, 255]
         });
         let t = Texture::new(image.unwrap().view(), &TextureOptions::default()).unwrap();
-        let s = Sampler::DEFAULT;
+        let s = Sampler { magnify: Magnify::None, ..Sampler::DEFAULT };
         let radial = Radial::new(&s);
         for i in 0..400 {
             let at = |k: f64| (f64::from(i) * k) % 1.0;

@@ -81,7 +81,7 @@ impl Sampler {
         pixel: PixelFilter::Ewa,
         level: LevelMode::Auto,
         kernel: Kernel::Gaussian,
-        magnify: Magnify::None,
+        magnify: Magnify::Taps,
         max_eccentricity: 16.0,
         radius: 2.5,
         least_sigma: 0.5,
@@ -92,7 +92,7 @@ impl Sampler {
         Self { max_eccentricity: 32.0, radius: 3.08, least_sigma: 0.6, blend: true, ..Self::FAST };
     /// For print and masters.
     pub const HIGH: Self =
-        Self { max_eccentricity: 64.0, least_sigma: 0.8, magnify: Magnify::Taps, ..Self::DEFAULT };
+        Self { max_eccentricity: 64.0, least_sigma: 0.8, ..Self::DEFAULT };
     /// Truth for tests: up to ten times the texels of the default, where the texture is far away. Over
     /// a texture in steps of 16 bits their rounding is what is left of the error; where that counts, ask
     /// for [`Storage::Float`](crate::Storage::Float).
