@@ -131,7 +131,10 @@ pub(crate) fn average_all<S: Simd, const C: usize, const R: usize>(
     out: &mut [[f32; 4]; ABREAST],
 ) -> u64 {
     const { assert!(R * C.div_ceil(LANES) <= QUADS) };
-    let [x, y] = [base[0] + patch.low[0].to_int::<i32x16<S>>(), base[1] + patch.low[1].to_int::<i32x16<S>>()];
+    let [x, y] = [
+        base[0] + patch.low[0].to_int::<i32x16<S>>(),
+        base[1] + patch.low[1].to_int::<i32x16<S>>(),
+    ];
     let (frame, columns) = (&level.frame, C.next_multiple_of(LANES) as i32);
     let ([low_x, low_y], [high_x, high_y]) = (frame.low, frame.high);
     let inside = x.simd_ge(low_x)
@@ -151,7 +154,12 @@ pub(crate) fn average_all<S: Simd, const C: usize, const R: usize>(
             let [left, right] = [pair(simd, quad[0], quad[1]), pair(simd, quad[2], quad[3])];
             let both = left.bitcast::<i16x32<S>>() + right.bitcast::<i16x32<S>>();
             totals += both.pairwise_dot_product(i16x32::splat(simd, 1));
-            sheet.put(used, left, right, inside.select(at + (q * LANES) as i32, i32x16::splat(simd, 0)));
+            sheet.put(
+                used,
+                left,
+                right,
+                inside.select(at + (q * LANES) as i32, i32x16::splat(simd, 0)),
+            );
             used += 1;
         }
     }

@@ -6,7 +6,6 @@ use crate::abreast::{Sheet, Walks};
 use crate::covariance::{Covariance, LEAST_VARIANCE, PIXEL_VARIANCE, RECONSTRUCTION};
 use crate::engine::{Engine, Vector};
 use crate::ewa::{BAND, BAND_START, Limits, walk_in};
-use crate::gaussian::UNIT;
 use crate::level::{Frame, Level};
 use crate::magnify::patch::{Spot, Spotted};
 use crate::math::{WHOLE, sqrt32};
@@ -312,10 +311,10 @@ impl<S: Simd> Batch<'_, S> {
             fx,
             fy,
             slope: s.uv * inverse_vv,
-            row_scale: inverse_vv * (0.5 * UNIT),
-            run_scale: f32x16::splat(simd, 0.5 * UNIT) / across,
-            row_width: s.vv * (2.0 / UNIT),
-            run_width: across * (2.0 / UNIT),
+            row_scale: inverse_vv * (0.5 * limits.unit),
+            run_scale: f32x16::splat(simd, 0.5 * limits.unit) / across,
+            row_width: s.vv * (2.0 / limits.unit),
+            run_width: across * (2.0 / limits.unit),
             cut: f32x16::splat(simd, limits.cut),
             groups,
             small: s.det.simd_le(SMALL),

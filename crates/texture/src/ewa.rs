@@ -2,11 +2,11 @@
 
 use crate::covariance::Covariance;
 use crate::engine::Engine;
-use crate::gaussian::UNIT;
+use crate::gaussian::{UNIT, widening};
 use crate::lod::{self, Pick};
+use crate::magnify::patch::Spotted;
 use crate::point::lerp;
 use crate::walk::{Place, Walk};
-use crate::magnify::patch::Spotted;
 use crate::{Footprint, LevelMode, Magnify, Sampler, Texture, walk_float};
 use scumble_geometry::Matrix2;
 
@@ -35,7 +35,9 @@ pub(crate) struct Limits {
     /// The determinant of the largest ellipse.
     pub(crate) most_det: f32,
     pub(crate) blend: bool,
-    /// ½R², in [`UNIT`]s: weights whose exponent is above it are 0.
+    /// [`UNIT`], for exponents of the Gaussian as it is [widened](widening).
+    pub(crate) unit: f32,
+    /// ½R², in that unit: weights whose exponent is above it are 0.
     pub(crate) cut: f32,
     pub(crate) magnify: Magnify,
 }
@@ -50,6 +52,7 @@ impl Limits {
         // What the largest ratio and σ allow by themselves, or the budget if that is more.
         let circle = core::f64::consts::PI * radius * radius;
         let axes = (4.0 * least * least * ratio).max(BUDGET / circle);
+        let unit = UNIT / widening(radius) as f32;
         Self {
             inverse_ratio: (1.0 / (ratio * ratio)) as f32,
             radius: radius as f32,
@@ -57,7 +60,8 @@ impl Limits {
             inverse_least: (1.0 / (least * least)) as f32,
             most_det: (axes * axes) as f32,
             blend: s.blend,
-            cut: (0.5 * radius * radius) as f32 * UNIT,
+            unit,
+            cut: (0.5 * radius * radius) as f32 * unit,
             magnify: s.magnify,
         }
     }

@@ -1,4 +1,17 @@
+use crate::math::exp;
 use crate::texel::ROUNDER;
+
+/// What the Gaussian's variance is multiplied by, so that it is not much too narrow where it is cut at
+/// `radius` σ.
+///
+/// Of a round Gaussian the cut takes the part t·e⁻ᵗ/(1 − e⁻ᵗ) of the variance, t = ½R²: 4 % at 3.08 σ, 17 %
+/// at 2.4. Given back in full, what is left at the cut is too large, and aliases. Four tenths gain 1 to 4 dB
+/// on a ground plane at the same texels, and lose nothing elsewhere.
+pub(crate) fn widening(radius: f64) -> f64 {
+    let t = 0.5 * radius * radius;
+    let beyond = exp(-t);
+    1.0 + 0.4 * t * beyond / (1.0 - beyond)
+}
 
 /// Exponents are given to [`weight`] in this unit, which makes the largest power's coefficient 1.
 pub(crate) const UNIT: f32 = 0.089_536_875;

@@ -1,7 +1,8 @@
 //! Weights of one kernel, or of two blended, and the sums that they make.
 
+use crate::gaussian::widening;
 use crate::math::sqrt;
-use crate::{Kernel, Magnify, Sampler};
+use crate::{Kernel, Magnify, PixelFilter, Sampler};
 
 /// The weights of one footprint.
 #[derive(Debug, Clone, Copy)]
@@ -9,6 +10,8 @@ pub(crate) struct Mixture {
     kernel: Kernel,
     /// The factor of its weights.
     far: f32,
+    /// What its r² is multiplied by: the Gaussian of the ellipses is wider, for it is cut.
+    narrowing: f32,
     /// Beyond this r² its weights are 0: the Gaussian is cut where the sampler says.
     cut: f32,
     /// The kernel for magnification, and the factor of its weights.
@@ -25,14 +28,19 @@ impl Mixture {
             Kernel::Gaussian => 0.25 * sigmas.min(4.0) * sigmas.min(4.0),
             other => other.radius() * other.radius(),
         };
+        let narrowing = match (s.kernel, s.pixel) {
+            (_, PixelFilter::Classic) => 1.0,
+            (Kernel::Gaussian, _) => 1.0 / widening(f64::from(sigmas.min(4.0))) as f32,
+            _ => 1.0,
+        };
+        let one = Self { kernel: s.kernel, far: 1.0, narrowing, cut, magnified: None };
         match s.magnify {
             Magnify::Radial(kernel) if nearness > 0.0 => Self {
-                kernel: s.kernel,
                 far: (1.0 - nearness) / s.kernel.integral(),
-                cut,
                 magnified: Some((kernel, nearness / kernel.integral())),
+                ..one
             },
-            _ => Self { kernel: s.kernel, far: 1.0, cut, magnified: None },
+            _ => one,
         }
     }
 
@@ -46,7 +54,7 @@ impl Mixture {
     /// The weight at a squared distance.
     #[inline(always)]
     pub(crate) fn weight(&self, r2: f32) -> f32 {
-        let far = if r2 <= self.cut { self.kernel.weight(r2) } else { 0.0 };
+        let far = if r2 <= self.cut { self.kernel.weight(r2 * self.narrowing) } else { 0.0 };
         match self.magnified {
             Some((kernel, near)) => near * kernel.weight(r2) + self.far * far,
             None => far,

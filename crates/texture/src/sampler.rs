@@ -65,7 +65,8 @@ pub struct Sampler {
     /// (The literature's word: it is the axis ratio, not the eccentricity of a conic.)
     pub max_eccentricity: f32,
     /// Where the Gaussian is cut, in σ. In 2…4; what lies outside is clamped. Texels read grow as
-    /// its square; below 3 the cut shows as a slight ringing in fine texture.
+    /// its square; below 3 the cut shows as a slight ringing in fine texture. What is left is widened by
+    /// four tenths of the variance that the cut takes.
     pub radius: f32,
     /// The least σ of the minor axis, in texels of the level that is read ([`LevelMode::Auto`]);
     /// in 0.4…4. Texels read grow as its square; accuracy too.
@@ -83,7 +84,7 @@ impl Sampler {
         kernel: Kernel::Gaussian,
         magnify: Magnify::Taps,
         max_eccentricity: 16.0,
-        radius: 2.5,
+        radius: 2.4,
         least_sigma: 0.5,
         blend: false,
     };
@@ -91,8 +92,7 @@ impl Sampler {
     pub const DEFAULT: Self =
         Self { max_eccentricity: 32.0, radius: 3.08, least_sigma: 0.6, blend: true, ..Self::FAST };
     /// For print and masters.
-    pub const HIGH: Self =
-        Self { max_eccentricity: 64.0, least_sigma: 0.8, ..Self::DEFAULT };
+    pub const HIGH: Self = Self { max_eccentricity: 64.0, least_sigma: 0.8, ..Self::DEFAULT };
     /// Truth for tests: up to ten times the texels of the default, where the texture is far away. Over
     /// a texture in steps of 16 bits their rounding is what is left of the error; where that counts, ask
     /// for [`Storage::Float`](crate::Storage::Float).

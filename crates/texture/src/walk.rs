@@ -4,7 +4,7 @@
 use crate::Wrap;
 use crate::covariance::{Covariance, LEAST_VARIANCE};
 use crate::ewa::Limits;
-use crate::gaussian::{UNIT, weight};
+use crate::gaussian::weight;
 use crate::level::{APRON, Frame, Level};
 use crate::math::{floor, floor32, sqrt32, whole};
 use crate::pyramid::plan::Span;
@@ -14,13 +14,14 @@ use crate::texel::{STEP, Texel, of_color};
 pub(crate) const LANES: usize = 4;
 
 /// The determinant up to which sums of an ellipse's weights times texels fit 31 bits. On a grid, a Gaussian whose σ is √0.15 and
-/// more sums to at most 1.22 times its integral: here to 63,000, times texels of at most 20,400.
+/// more sums to at most 1.22 times its integral: here to 84,000 where it is widened most, times texels of at most
+/// 20,400.
 pub(crate) const SMALL: f32 = 4.0;
 
 /// An ellipse in one level, ready to be walked.
 ///
 /// Texel (x0 + i, y0 + j) lies at dv = j − fy below the centre; the ellipse's middle in its row is at
-/// fx + slope·dv from x0, and with dx the distance from there the Gaussian's exponent, in [`UNIT`]s,
+/// fx + slope·dv from x0, and with dx the distance from there the Gaussian's exponent, in [`Limits::unit`]s,
 /// is e = row_scale·dv² + run_scale·dx². Both terms are positive, so nothing cancels.
 ///
 /// A row begins with its first texel in the ellipse, and is read in quads. The ellipse is convex, so
@@ -143,10 +144,10 @@ impl Walk {
             fx: at.fx,
             fy: at.fy,
             slope: uv * inverse_vv,
-            row_scale: 0.5 * UNIT * inverse_vv,
-            run_scale: 0.5 * UNIT / across,
-            row_width: 2.0 / UNIT * vv,
-            run_width: 2.0 / UNIT * across,
+            row_scale: 0.5 * limits.unit * inverse_vv,
+            run_scale: 0.5 * limits.unit / across,
+            row_width: 2.0 / limits.unit * vv,
+            run_width: 2.0 / limits.unit * across,
             cut: limits.cut,
             groups: groups as i32,
         }

@@ -196,7 +196,7 @@ fn taps_are_the_integral_over_the_bilinear_surface() {
     let truth = Reference::new(&t, PixelShape::Gaussian { sigma: 0.5 }).with_density(4.0, 32);
     // White noise, the worst that a texture can be; the last bars hold the blend with the ellipse.
     for (major, gain, bar) in
-        [(0.3, 20.0, 58.0), (0.6, 8.0, 49.0), (0.75, 2.0, 46.0), (0.9, 0.0, 45.0)]
+        [(0.3, 20.0, 58.0), (0.6, 7.0, 49.0), (0.75, 2.0, 46.0), (0.9, 0.0, 45.0)]
     {
         let of = |magnify| {
             let s = Sampler { magnify, ..Sampler::DEFAULT };

@@ -6,8 +6,8 @@ use crate::level::Level;
 use crate::number::Number;
 use crate::run::ABREAST;
 use crate::{Kernel, Separable, Wrap};
-use patch::{Patch, Spot, Spotted};
 use fearless_simd::{Simd, f32x16, i32x16};
+use patch::{Patch, Spot, Spotted};
 use taps::Places;
 
 /// What is made of a texture where a pixel sees less than about a texel of it.

@@ -1,9 +1,9 @@
 //! A few texels in a rectangle and their weights: what every filter of a magnified texture comes to.
 
-use crate::number::Number;
 use crate::Wrap;
 use crate::level::Level;
 use crate::math::{floor, whole};
+use crate::number::Number;
 use crate::texel::{ROUNDER, Texel};
 use crate::walk::mean;
 use scumble_geometry::Matrix2;

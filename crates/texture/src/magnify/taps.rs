@@ -12,8 +12,8 @@
 //! Measured on a ground plane, the even ones are 2 to 5 dB nearer, and 10 to 30 dB nearer than the
 //! ellipse below one texel per pixel along the major axis; on white noise the two meet at 1, on pictures at 1¼ to 1½.
 
-use crate::number::Number;
 use super::patch::{Patch, Spot, WEIGHT};
+use crate::number::Number;
 
 /// Where along an axis, in σ.
 const NODES: [f32; 4] = [-INNER * 3.0, -INNER, INNER, INNER * 3.0];
@@ -69,10 +69,8 @@ impl<N: Number> Places<N> {
         let other = (c * c + d * d).sqrt() * 0.5;
         let second = root.if_positive(inverse * spot.determinant.abs(), other);
         let far = NODES[3];
-        let low = [
-            (spot.x - along[0] * far).floor(),
-            (spot.y - (along[1].abs() + second) * far).floor(),
-        ];
+        let low =
+            [(spot.x - along[0] * far).floor(), (spot.y - (along[1].abs() + second) * far).floor()];
         Self { low, centre: [spot.x - low[0], spot.y - low[1]], first: along, second }
     }
 
