@@ -178,7 +178,7 @@ fn hold(name: &str, t: &Texture, bars: [[f64; 4]; 3]) {
 fn a_checkerboard() {
     let ground = [45.2, 56.8, 56.8, 57.6];
     let keystone = [41.2, 53.1, 56.4, 75.0];
-    let turned = [40.3, 52.0, 51.8, 75.0];
+    let turned = [38.9, 51.4, 51.4, 75.0];
     hold("checker", &checker(), [ground, keystone, turned]);
 }
 
@@ -186,7 +186,7 @@ fn a_checkerboard() {
 fn a_zone_plate() {
     let ground = [45.7, 47.7, 47.7, 46.2];
     let keystone = [39.7, 40.2, 51.5, 73.0];
-    let turned = [36.1, 53.3, 53.5, 75.0];
+    let turned = [36.1, 52.6, 52.8, 75.0];
     hold("zone", &zone(), [ground, keystone, turned]);
 }
 
@@ -194,7 +194,7 @@ fn a_zone_plate() {
 fn text_like_strokes() {
     let ground = [47.2, 57.6, 57.6, 59.4];
     let keystone = [39.6, 42.9, 52.3, 75.0];
-    let turned = [30.3, 49.8, 50.0, 75.0];
+    let turned = [30.3, 49.2, 49.4, 75.0];
     hold("text", &text(), [ground, keystone, turned]);
 }
 

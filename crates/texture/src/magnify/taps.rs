@@ -39,7 +39,8 @@ pub(crate) const TO: f32 = 0.775;
 /// √½·[`TO`], along columns, and within √2 times as much along rows.
 pub(crate) const COLUMNS: usize = 4;
 pub(crate) const ROWS: usize = 5;
-const _: () = assert!(2.0 * NODES[3] * 0.707_106_8 * TO < (COLUMNS - 2) as f32);
+const _: () =
+    assert!(2.0 * NODES[3] * core::f32::consts::FRAC_1_SQRT_2 * TO < (COLUMNS - 2) as f32);
 const _: () = assert!(2.0 * NODES[3] * TO < (ROWS - 2) as f32);
 
 /// The sixteen places of a footprint: the spot + p·`first` + q·(0, `second`).
