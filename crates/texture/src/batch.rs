@@ -3,15 +3,15 @@
 //! done one by one.
 
 use crate::abreast::{Sheet, Walks};
-use crate::covariance::{Covariance, LEAST_VARIANCE, PIXEL_VARIANCE, RECONSTRUCTION};
+use crate::covariance::{Covariance, LEAST_VARIANCE, PIXEL_VARIANCE, RECONSTRUCTION, products};
 use crate::engine::{Engine, Vector};
 use crate::ewa::{BAND, BAND_START, Limits, walk_in};
 use crate::level::{Frame, Level};
 use crate::magnify::patch::{Spot, Spotted};
-use crate::math::{WHOLE, sqrt32};
+use crate::math::WHOLE;
 use crate::point::lerp;
 use crate::run::{ABREAST, Run, Sixteen};
-use crate::walk::{ASIDE, FARTHEST, LANES, SMALL, THIN};
+use crate::walk::{ASIDE, FARTHEST, LANES, SMALL};
 use crate::{Texture, abreast};
 use fearless_simd::{Simd, f32x4, f32x16, f64x8, i32x16, mask32x16, prelude::*};
 use scumble_pixel::Premul;
@@ -34,25 +34,16 @@ pub(crate) fn fill<S: Simd>(
     let mut sheet = Sheet::default();
     for (chunk, out) in out.chunks_mut(ABREAST).enumerate() {
         let spots = run.sixteen(simd, t, chunk * ABREAST);
-        let (ellipses, axes, minor) = Ellipses::of(simd, &spots, limits);
-        let near = limits.magnify.nearness(axes);
-        let picks = Picks::new(simd, minor * limits.inverse_least, t, limits.blend);
+        let near = limits.magnify.nearness(products(spots.jacobian));
         let asked = (1u64 << out.len()) - 1;
         let usable = spots.usable.to_bitmask() & asked;
-        let mut batch = Batch { simd, t, limits, spots: &spots, ellipses, sheet: &mut sheet };
-        let mut colors = [[0.0; 4]; ABREAST];
         let far = near.simd_lt(1.0).to_bitmask() & usable;
-        batch.fill(picks.level, far, &mut colors);
-        let blends = picks.coarser.simd_gt(0.0).to_bitmask() & far;
-        if blends != 0 {
-            let mut next = [[0.0; 4]; ABREAST];
-            batch.fill(picks.level + 1, blends, &mut next);
-            let coarser = picks.coarser.to_array();
-            for i in lanes(blends) {
-                colors[i] = lerp(colors[i], next[i], coarser[i]);
-            }
-        }
         let close = near.simd_gt(0.0).to_bitmask() & usable;
+        let mut batch = Batch { simd, t, limits, spots: &spots, sheet: &mut sheet };
+        let mut colors = [[0.0; 4]; ABREAST];
+        if far != 0 {
+            batch.filter(far, &mut colors);
+        }
         if close != 0 {
             batch.magnify(close, far, &near.to_array(), &mut colors);
         }
@@ -99,12 +90,9 @@ struct Ellipses<S: Simd> {
 impl<S: Simd> Ellipses<S> {
     /// [`Covariance::of`].
     #[inline(always)]
-    fn of(simd: S, spots: &Sixteen<S>, limits: &Limits) -> (Self, [f32x16<S>; 2], f32x16<S>) {
+    fn of(simd: S, spots: &Sixteen<S>, limits: &Limits) -> (Self, f32x16<S>) {
         let zero = f32x16::splat(simd, 0.0);
-        let [a, b, c, d] = spots.jacobian;
-        let p = a * a + b * b;
-        let r = c * c + d * d;
-        let q = a * c + b * d;
+        let [p, q, r] = products(spots.jacobian);
         let (x, y) = (p - r, q * 2.0);
         let h = (x * x + y * y).sqrt();
         let s1 = (p + r + h) * 0.5;
@@ -122,7 +110,7 @@ impl<S: Simd> Ellipses<S> {
             vv: (r * PIXEL_VARIANCE + RECONSTRUCTION) + k * (h + x),
             det: v1 * wide,
         };
-        (sigma, [s1, s2], wide)
+        (sigma, wide)
     }
 
     /// [`Covariance::at_level`].
@@ -142,10 +130,15 @@ impl<S: Simd> Ellipses<S> {
     fn needs_mending(&self, frame: &Frame, limits: &Limits) -> mask32x16<S> {
         let sum = self.uu + self.vv;
         let least = self.det - (sum - LEAST_VARIANCE) * LEAST_VARIANCE;
+        let thin = least.simd_lt(0.0) | sum.simd_lt(2.0 * LEAST_VARIANCE);
+        thin | self.is_too_large(frame, limits)
+    }
+
+    /// [`Covariance::is_too_large`].
+    #[inline(always)]
+    fn is_too_large(&self, frame: &Frame, limits: &Limits) -> mask32x16<S> {
         let [u, v] = frame.most;
-        least.simd_lt(0.0)
-            | sum.simd_lt(2.0 * LEAST_VARIANCE)
-            | self.det.simd_gt(limits.most_det)
+        self.det.simd_gt(limits.most_det)
             | (self.uu * limits.radius_squared).simd_gt(u * u)
             | (self.vv * limits.radius_squared).simd_gt(v * v)
     }
@@ -195,30 +188,47 @@ struct Batch<'a, S: Simd> {
     t: &'a Texture,
     limits: &'a Limits,
     spots: &'a Sixteen<S>,
-    ellipses: Ellipses<S>,
     sheet: &'a mut Sheet,
 }
 
 impl<S: Simd> Batch<'_, S> {
-    /// The colours of the lanes whose bits are set, each in its level.
+    /// The colours of the ellipses of the lanes whose bits are set.
     #[inline(always)]
-    fn fill(&mut self, level: i32x16<S>, wanted: u64, out: &mut Colors) {
+    fn filter(&mut self, wanted: u64, colors: &mut Colors) {
+        let (simd, limits) = (self.simd, self.limits);
+        let (ellipses, minor) = Ellipses::of(simd, self.spots, limits);
+        let picks = Picks::new(simd, minor * limits.inverse_least, self.t, limits.blend);
+        self.fill(&ellipses, picks.level, wanted, colors);
+        let blends = picks.coarser.simd_gt(0.0).to_bitmask() & wanted;
+        if blends != 0 {
+            let mut next = [[0.0; 4]; ABREAST];
+            self.fill(&ellipses, picks.level + 1, blends, &mut next);
+            let coarser = picks.coarser.to_array();
+            for i in lanes(blends) {
+                colors[i] = lerp(colors[i], next[i], coarser[i]);
+            }
+        }
+    }
+
+    /// Those of lanes in a level each.
+    #[inline(always)]
+    fn fill(&mut self, ellipses: &Ellipses<S>, level: i32x16<S>, wanted: u64, out: &mut Colors) {
         let levels = level.to_array();
         let mut rest = wanted;
         while rest != 0 {
             let index = levels[rest.trailing_zeros() as usize % ABREAST];
             let same = level.simd_eq(index).to_bitmask() & rest;
             rest &= !same;
-            self.fill_level(index as usize, same, out);
+            self.fill_level(ellipses, index as usize, same, out);
         }
     }
 
     /// The colours of lanes that read the same level.
     #[inline(always)]
-    fn fill_level(&mut self, index: usize, wanted: u64, out: &mut Colors) {
+    fn fill_level(&mut self, ellipses: &Ellipses<S>, index: usize, wanted: u64, out: &mut Colors) {
         let simd = self.simd;
         let Some(level) = self.t.levels.get(index) else { return };
-        let sigma = self.ellipses.at_level(&level.frame);
+        let sigma = ellipses.at_level(&level.frame);
         let (walks, easy) = self.walks(level, sigma);
         let easy = easy.to_bitmask() & wanted;
         if easy != 0 {
@@ -279,20 +289,24 @@ impl<S: Simd> Batch<'_, S> {
         let (mut y0, mut fy) = place(self.spots.v, scale_v);
         let mut s = sigma;
         let (mut wide, mut tall) = (reach(simd, s.uu, limits), reach(simd, s.vv, limits));
+        let mut amiss = s.needs_mending(frame, limits);
         if frame.ends {
-            let (zero, thin) = (f32x16::splat(simd, 0.0), f32x16::splat(simd, THIN));
             let [last_x, last_y] = frame.last;
-            if let Some(out) = beyond(simd, &mut x0, &mut wide, last_x, limits) {
-                fx = out.select(zero, fx);
-                s.uu = out.select(thin, s.uu);
+            let x = beyond(simd, &mut x0, &mut wide, last_x);
+            let y = beyond(simd, &mut y0, &mut tall, last_y);
+            let out = x | y;
+            if out.any_true() {
+                let (zero, thin) = (f32x16::splat(simd, 0.0), f32x16::splat(simd, limits.thin));
+                fx = x.select(zero, fx);
+                fy = y.select(zero, fy);
+                let least = f32x16::splat(simd, LEAST_VARIANCE);
+                let uu = x.select(thin, s.uu.simd_gt(least).select(s.uu, least));
+                let vv = y.select(thin, s.vv.simd_gt(least).select(s.vv, least));
+                s.uu = out.select(uu, s.uu);
+                s.vv = out.select(vv, s.vv);
                 s.uv = out.select(zero, s.uv);
-                s.det = out.select(s.vv * THIN, s.det);
-            }
-            if let Some(out) = beyond(simd, &mut y0, &mut tall, last_y, limits) {
-                fy = out.select(zero, fy);
-                s.vv = out.select(thin, s.vv);
-                s.uv = out.select(zero, s.uv);
-                s.det = out.select(s.uu * THIN, s.det);
+                s.det = out.select(uu * vv, s.det);
+                amiss = (amiss & !out) | s.is_too_large(frame, limits);
             }
         }
         // A texel more takes care of rounding, and the last quad's own length.
@@ -319,7 +333,7 @@ impl<S: Simd> Batch<'_, S> {
             groups,
             small: s.det.simd_le(SMALL),
         };
-        (walks, inside & !s.needs_mending(frame, limits))
+        (walks, inside & !amiss)
     }
 }
 
@@ -331,26 +345,17 @@ fn reach<S: Simd>(simd: S, variance: f32x16<S>, limits: &Limits) -> i32x16<S> {
     reach.simd_lt(most).select(reach, most).to_int::<i32x16<S>>() + 1
 }
 
-/// Puts the ellipses that lie wholly beyond the texels 0 to `last` of an axis beside them; which.
+/// Puts the ellipses that lie wholly beyond the texels 0 to `last` of an axis beside them. Which.
 #[inline(always)]
-fn beyond<S: Simd>(
-    simd: S,
-    at: &mut i32x16<S>,
-    reach: &mut i32x16<S>,
-    last: i32,
-    limits: &Limits,
-) -> Option<mask32x16<S>> {
+fn beyond<S: Simd>(simd: S, at: &mut i32x16<S>, reach: &mut i32x16<S>, last: i32) -> mask32x16<S> {
     let (before, after) = ((*at + *reach).simd_lt(-1), (*at - *reach).simd_gt(last));
     let out = before | after;
-    if !out.any_true() {
-        return None;
-    }
     let aside = i32x16::splat(simd, last + ASIDE);
     let aside = before.select(i32x16::splat(simd, -1 - ASIDE), aside);
     *at = out.select(aside, *at);
-    let thin = (limits.radius * sqrt32(THIN)) as i32 + 1;
-    *reach = out.select(i32x16::splat(simd, thin), *reach);
-    Some(out)
+    // What is left reaches less than a texel.
+    *reach = out.select(i32x16::splat(simd, 1), *reach);
+    out
 }
 
 /// One axis of [`Place::new`](crate::walk::Place::new).

@@ -1,6 +1,7 @@
 use crate::ewa::Limits;
 use crate::level::Frame;
 use crate::math::{sqrt, sqrt32};
+use crate::number::Number;
 use scumble_geometry::Matrix2;
 
 /// Variance of the pixel's Gaussian along each axis, in squared pixels: σ = ½ pixel.
@@ -23,9 +24,15 @@ pub(crate) struct Covariance {
     pub(crate) det: f32,
 }
 
+/// The entries p, q, r of JJᵀ = [[p, q], [q, r]], of a Jacobian by rows.
+#[inline(always)]
+pub(crate) fn products<N: Number>([a, b, c, d]: [N; 4]) -> [N; 3] {
+    [a * a + b * b, a * c + b * d, c * c + d * d]
+}
+
 impl Covariance {
     /// Pixel and reconstruction together, for a Jacobian in texels per pixel, with the minor axis
-    /// widened to the largest ratio; s₁² and s₂²; and the variance V₂ along the minor axis.
+    /// widened to the largest ratio; and the variance V₂ along the minor axis.
     ///
     /// With p, q, r the entries of JJᵀ and h = hypot(p − r, 2q), the squared singular values are
     /// s₁² = (p + r + h)/2 and s₂² = det²J/s₁² (the quadratic formula would lose s₂ to
@@ -33,12 +40,9 @@ impl Covariance {
     /// angle and no direction is needed. Only det J cancels, so it is found in double precision; all
     /// else are sums of what is positive, or of what does not count where it cancels.
     #[inline(always)]
-    pub(crate) fn of(j: &Matrix2, inverse_ratio: f32) -> (Self, [f32; 2], f32) {
+    pub(crate) fn of(j: &Matrix2, inverse_ratio: f32) -> (Self, f32) {
         let determinant = j.determinant() as f32;
-        let [a, b, c, d] = [j.a, j.b, j.c, j.d].map(|v| v as f32);
-        let p = a * a + b * b;
-        let r = c * c + d * d;
-        let q = a * c + b * d;
+        let [p, q, r] = products([j.a, j.b, j.c, j.d].map(|v| v as f32));
         let (x, y) = (p - r, 2.0 * q);
         let h = sqrt32(x * x + y * y);
         let s1 = 0.5 * (p + r + h);
@@ -55,7 +59,7 @@ impl Covariance {
             vv: (PIXEL_VARIANCE * r + RECONSTRUCTION) + k * (h + x),
             det: v1 * wide,
         };
-        (sigma, [s1, s2], wide)
+        (sigma, wide)
     }
 
     /// S(Σ − M)S: in texels of a level, without what the pyramid has blurred.
@@ -76,10 +80,14 @@ impl Covariance {
         // (V₁ − L)(V₂ − L), which is negative where L lies between them.
         let sum = self.uu + self.vv;
         let least = self.det - LEAST_VARIANCE * (sum - LEAST_VARIANCE);
+        (least < 0.0) | (sum < 2.0 * LEAST_VARIANCE) | self.is_too_large(frame, limits)
+    }
+
+    /// Whether it is larger than the budget, or reaches too far along an axis of one texel.
+    #[inline(always)]
+    pub(crate) fn is_too_large(&self, frame: &Frame, limits: &Limits) -> bool {
         let [u, v] = frame.most;
-        (least < 0.0)
-            | (sum < 2.0 * LEAST_VARIANCE)
-            | (self.det > limits.most_det)
+        (self.det > limits.most_det)
             | (self.uu * limits.radius_squared > u * u)
             | (self.vv * limits.radius_squared > v * v)
     }

@@ -1,12 +1,12 @@
 //! The elliptical weighted average: from a footprint to an ellipse, a level and a walk.
 
-use crate::covariance::Covariance;
+use crate::covariance::{Covariance, products};
 use crate::engine::Engine;
 use crate::gaussian::{UNIT, widening};
 use crate::lod::{self, Pick};
 use crate::magnify::patch::Spotted;
 use crate::point::lerp;
-use crate::walk::{Place, Walk};
+use crate::walk::{Place, THIN, Walk};
 use crate::{Footprint, LevelMode, Magnify, Sampler, Texture, walk_float};
 use scumble_geometry::Matrix2;
 
@@ -30,6 +30,8 @@ pub(crate) struct Limits {
     /// R, and its square.
     pub(crate) radius: f32,
     pub(crate) radius_squared: f32,
+    /// The variance of an ellipse along an axis where all texels are the same.
+    pub(crate) thin: f32,
     /// 1/s².
     pub(crate) inverse_least: f32,
     /// The determinant of the largest ellipse.
@@ -57,6 +59,7 @@ impl Limits {
             inverse_ratio: (1.0 / (ratio * ratio)) as f32,
             radius: radius as f32,
             radius_squared: (radius * radius) as f32,
+            thin: THIN / (radius * radius) as f32,
             inverse_least: (1.0 / (least * least)) as f32,
             most_det: (axes * axes) as f32,
             blend: s.blend,
@@ -83,13 +86,14 @@ struct Plan<'a> {
 impl<'a> Plan<'a> {
     #[inline(always)]
     fn new(t: &'a Texture, f: &'a Footprint, mode: LevelMode, limits: &'a Limits) -> Self {
-        let (sigma, axes, minor) = Covariance::of(&f.jacobian, limits.inverse_ratio);
-        let near = limits.magnify.nearness(axes);
+        let Matrix2 { a, b, c, d } = f.jacobian;
+        let near = limits.magnify.nearness(products([a, b, c, d].map(|v| v as f32)));
         if mode != LevelMode::Auto {
             let step = f.longest_step_squared();
             let pick = lod::pick(step, lod::detail(step), mode, t.range());
             return Self { t, f, limits, pick, sigma: None, near };
         }
+        let (sigma, minor) = Covariance::of(&f.jacobian, limits.inverse_ratio);
         let pick = auto_pick(minor * limits.inverse_least, t.range(), limits.blend);
         Self { t, f, limits, pick, sigma: Some(sigma), near }
     }
@@ -194,7 +198,9 @@ pub(crate) fn walk_in(
 ) -> Walk {
     let frame = &t.levels[index].frame;
     let mut place = Place::new(u, v, frame);
-    let sigma = place.pull_in(sigma, frame, limits);
-    let mended = if sigma.needs_mending(frame, limits) { sigma.mend(frame, limits) } else { sigma };
+    let (sigma, pulled) = place.pull_in(sigma, frame, limits);
+    let amiss =
+        if pulled { sigma.is_too_large(frame, limits) } else { sigma.needs_mending(frame, limits) };
+    let mended = if amiss { sigma.mend(frame, limits) } else { sigma };
     Walk::new(&place, &mended, limits)
 }

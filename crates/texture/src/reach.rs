@@ -64,7 +64,7 @@ impl Sampler {
     fn level_of(&self, [major, minor]: [f64; 2]) -> (usize, bool) {
         let limits = Limits::new(self);
         let jacobian = Matrix2::new(major.max(0.0), 0.0, 0.0, minor.max(0.0));
-        let (_, _, variance) = Covariance::of(&jacobian, limits.inverse_ratio);
+        let (_, variance) = Covariance::of(&jacobian, limits.inverse_ratio);
         let pick = auto_pick(variance * limits.inverse_least, [0, FARTHEST], limits.blend);
         (pick.level, pick.coarser > 0.0)
     }

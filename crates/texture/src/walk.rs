@@ -60,12 +60,12 @@ pub(crate) struct Place {
     pub(crate) fy: f32,
 }
 
-/// The variance of an ellipse along an axis where all texels are the same.
-pub(crate) const THIN: f32 = 0.16;
-const _: () = assert!(THIN > LEAST_VARIANCE);
+/// The variance of an ellipse along an axis where all texels are the same, times R²: it reaches less than
+/// a texel, so that it is one row or one column of them.
+pub(crate) const THIN: f32 = 0.9;
 
-/// How far from the level's edge such an ellipse is put: further than its largest reach, 4√0.16, and
-/// with the rest of a quad still in the apron.
+/// How far from the level's edge such an ellipse is put: further than its reach, and with the rest of a
+/// quad still in the apron.
 pub(crate) const ASIDE: i32 = 2;
 
 /// The most that is taken for a reach, so that sums with places fit integers.
@@ -81,21 +81,31 @@ impl Place {
     }
 
     /// Where an ellipse lies wholly beyond an edge of a level that ends there, its texels along that
-    /// axis are all the same: it is put beside the edge, and made thin.
+    /// axis are all the same: it is put beside the edge, and made thin. Whether that is so of an axis.
     #[inline(always)]
-    pub(crate) fn pull_in(&mut self, s: Covariance, frame: &Frame, limits: &Limits) -> Covariance {
-        let mut s = s;
-        if frame.ends {
-            if let Some(x) = beyond(self.x0, s.uu, frame.last[0], limits) {
-                (self.x0, self.fx) = (x, 0.0);
-                s = Covariance { uu: THIN, uv: 0.0, vv: s.vv, det: THIN * s.vv };
-            }
-            if let Some(y) = beyond(self.y0, s.vv, frame.last[1], limits) {
-                (self.y0, self.fy) = (y, 0.0);
-                s = Covariance { uu: s.uu, uv: 0.0, vv: THIN, det: s.uu * THIN };
-            }
+    pub(crate) fn pull_in(
+        &mut self,
+        s: Covariance,
+        frame: &Frame,
+        limits: &Limits,
+    ) -> (Covariance, bool) {
+        if !frame.ends {
+            return (s, false);
         }
-        s
+        let x = beyond(self.x0, s.uu, frame.last[0], limits);
+        let y = beyond(self.y0, s.vv, frame.last[1], limits);
+        if x.is_none() && y.is_none() {
+            return (s, false);
+        }
+        let at_least = |v: f32| if v > LEAST_VARIANCE { v } else { LEAST_VARIANCE };
+        let (mut uu, mut vv) = (at_least(s.uu), at_least(s.vv));
+        if let Some(x) = x {
+            (self.x0, self.fx, uu) = (x, 0.0, limits.thin);
+        }
+        if let Some(y) = y {
+            (self.y0, self.fy, vv) = (y, 0.0, limits.thin);
+        }
+        (Covariance { uu, uv: 0.0, vv, det: uu * vv }, true)
     }
 }
 

@@ -83,13 +83,17 @@ impl Magnify {
         }
     }
 
-    /// How much of the result is this, from the squares of the footprint's axes, the major first.
+    /// How much of the result is this, from the [products](crate::covariance::products) of the
+    /// footprint's Jacobian.
     #[inline(always)]
-    pub(crate) fn nearness<N: Number>(self, [major, minor]: [N; 2]) -> N {
+    pub(crate) fn nearness<N: Number>(self, [p, q, r]: [N; 3]) -> N {
         match self {
-            Self::None | Self::Radial(_) => major.all(0.0),
-            Self::Taps => fall((major + minor) * 0.5, taps::FROM, taps::TO),
-            _ => fall(major, MAGNIFIED, MINIFIED),
+            Self::None | Self::Radial(_) => p.all(0.0),
+            Self::Taps => fall((p + r) * 0.5, taps::FROM, taps::TO),
+            _ => {
+                let (x, y) = (p - r, q * 2.0);
+                fall((p + r + (x * x + y * y).sqrt()) * 0.5, MAGNIFIED, MINIFIED)
+            }
         }
     }
 
