@@ -101,19 +101,8 @@ pub(crate) fn walk_all<S: Simd>(
             }
         }
     }
-    sums.gather(simd, level, wanted, sheet, used);
-    let totals = totals.to_array();
-    let mut empty = 0;
-    for (i, total) in totals.iter().enumerate() {
-        empty |= u64::from(*total <= 0) << i;
-    }
-    for i in 0..ABREAST {
-        let color = sums.mean(i, totals[i]);
-        if wanted >> i & 1 != 0 {
-            out[i] = color;
-        }
-    }
-    for i in lanes(empty & wanted) {
+    sums.finish(simd, level, wanted, sheet, used, &shares(totals), out);
+    for i in lanes(totals.simd_le(0).to_bitmask() & wanted) {
         out[i] = walks.get(i).centre(level, t.wrap);
     }
 }
@@ -163,13 +152,19 @@ pub(crate) fn average_all<S: Simd, const C: usize, const R: usize>(
             used += 1;
         }
     }
-    let mut sums = Sums::Small([[0; 4]; ABREAST]);
-    sums.gather(simd, level, done, sheet, used);
-    let totals = totals.to_array();
-    for i in lanes(done) {
-        out[i] = sums.mean(i, totals[i]);
-    }
+    let sums = Sums::Small([[0; 4]; ABREAST]);
+    sums.finish(simd, level, done, sheet, used, &shares(totals), out);
     done
+}
+
+/// One over each.
+#[inline(always)]
+fn shares<S: Simd>(totals: i32x16<S>) -> [f64; ABREAST] {
+    let mut shares = [0.0; ABREAST];
+    for (share, total) in shares.iter_mut().zip(totals.to_array()) {
+        *share = 1.0 / f64::from(total);
+    }
+    shares
 }
 
 /// Two weights, rounded to whole numbers, in the low and the high halves of the lanes.
@@ -289,48 +284,83 @@ impl Sums {
         sheet: &Sheet,
         quads: usize,
     ) {
-        let weights = &sheet.weights[..quads.min(QUADS)];
         match self {
             Self::Small(sums) => {
                 for i in lanes(wanted) {
-                    let sum = &mut sums[i];
-                    let mut own = i32x8::splat(simd, 0);
-                    for (weights, at) in weights.iter().zip(&sheet.at) {
-                        own += quad(simd, level, [weights[2 * i], weights[2 * i + 1]], at[i]);
-                    }
-                    *sum = (fold(own) + i32x4::load_array(simd, *sum)).to_array();
+                    let own = small(simd, level, sheet, quads, i);
+                    sums[i] = (own + i32x4::load_array(simd, sums[i])).to_array();
                 }
             }
             Self::Large(sums) => {
                 for i in lanes(wanted) {
-                    let zero = i32x8::splat(simd, 0);
-                    let (mut high, mut low) = (zero, zero);
-                    let at = sheet.at.chunks(ROOM);
-                    for (weights, at) in weights.chunks(ROOM).zip(at) {
-                        let mut own = zero;
-                        for (weights, at) in weights.iter().zip(at) {
-                            own += quad(simd, level, [weights[2 * i], weights[2 * i + 1]], at[i]);
-                        }
-                        high += own >> 12;
-                        low += own & 0xfff;
-                    }
-                    let (high, low) = (fold(high).to_array(), fold(low).to_array());
-                    for c in 0..4 {
-                        sums[i][c] += f64::from(high[c]) * 4096.0 + f64::from(low[c]);
-                    }
+                    let own = large(simd, level, sheet, quads, i);
+                    (0..4).for_each(|c| sums[i][c] += own[c]);
                 }
             }
         }
     }
 
-    /// The mean of one, from the sum of its weights.
+    /// Adds the last quads, and makes the means of the sums, of which `shares` are one over those of the
+    /// weights.
     #[inline(always)]
-    fn mean(&self, i: usize, total: i32) -> [f32; 4] {
-        match self {
-            Self::Small(sums) => mean(sums[i].map(f64::from), total),
-            Self::Large(sums) => mean(sums[i], total),
+    #[expect(clippy::too_many_arguments, reason = "what a batch of pixels has in hand")]
+    fn finish<S: Simd>(
+        mut self,
+        simd: S,
+        level: &Level,
+        wanted: u64,
+        sheet: &Sheet,
+        quads: usize,
+        shares: &[f64; ABREAST],
+        out: &mut [[f32; 4]; ABREAST],
+    ) {
+        if let Self::Small(sums) = &self {
+            for i in lanes(wanted) {
+                let own = small(simd, level, sheet, quads, i);
+                let sum = (own + i32x4::load_array(simd, sums[i])).to_array();
+                out[i] = mean(sum.map(f64::from), shares[i]);
+            }
+            return;
+        }
+        self.gather(simd, level, wanted, sheet, quads);
+        if let Self::Large(sums) = &self {
+            for i in lanes(wanted) {
+                out[i] = mean(sums[i], shares[i]);
+            }
         }
     }
+}
+
+/// The sum of so many quads of a walk, which is sure to fit 31 bits.
+#[inline(always)]
+fn small<S: Simd>(simd: S, level: &Level, sheet: &Sheet, quads: usize, walk: usize) -> i32x4<S> {
+    let mut own = i32x8::splat(simd, 0);
+    for (weights, at) in sheet.weights[..quads.min(QUADS)].iter().zip(&sheet.at) {
+        own += quad(simd, level, [weights[2 * walk], weights[2 * walk + 1]], at[walk]);
+    }
+    fold(own)
+}
+
+/// The sum of so many quads of a walk, whatever it is.
+#[inline(always)]
+fn large<S: Simd>(simd: S, level: &Level, sheet: &Sheet, quads: usize, walk: usize) -> [f64; 4] {
+    let zero = i32x8::splat(simd, 0);
+    let (mut high, mut low) = (zero, zero);
+    let weights = sheet.weights[..quads.min(QUADS)].chunks(ROOM);
+    for (weights, at) in weights.zip(sheet.at.chunks(ROOM)) {
+        let mut own = zero;
+        for (weights, at) in weights.iter().zip(at) {
+            own += quad(simd, level, [weights[2 * walk], weights[2 * walk + 1]], at[walk]);
+        }
+        high += own >> 12;
+        low += own & 0xfff;
+    }
+    let (high, low) = (fold(high).to_array(), fold(low).to_array());
+    let mut sum = [0.0; 4];
+    for c in 0..4 {
+        sum[c] = f64::from(high[c]) * 4096.0 + f64::from(low[c]);
+    }
+    sum
 }
 
 /// Quads whose sums are sure to fit 31 bits: in each lane two weights of at most 2¹² times texels below

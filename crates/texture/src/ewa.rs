@@ -15,9 +15,10 @@ use scumble_geometry::Matrix2;
 /// texture minified more than 46 times, or a texture without its pyramid.
 pub(crate) const BUDGET: f64 = 16_384.0;
 
-/// The least ratio of V₂/s² to the switch of level at which two levels blend: 4^¾, so that the
-/// last quarter of the octave in σ blends.
-pub(crate) const BAND_START: f32 = 2.828_427;
+/// The least ratio of V₂/s² to the switch of level at which two levels blend: nearly the last quarter of
+/// the octave in σ does, which 4^¾ = 2.83 would be. A picture shrunk four times, for which the default has
+/// 2.89, is left out and reads one level.
+pub(crate) const BAND_START: f32 = 2.9;
 
 /// One over the rest of the octave.
 pub(crate) const BAND: f32 = 1.0 / (4.0 - BAND_START);

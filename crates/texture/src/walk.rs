@@ -193,7 +193,7 @@ impl Walk {
         if total <= 0 {
             return self.centre(level, wrap);
         }
-        mean(sums, total)
+        mean(sums, 1.0 / f64::from(total))
     }
 
     /// Row `j` of the walk, as far as it can be found in the level.
@@ -205,11 +205,10 @@ impl Walk {
     }
 }
 
-/// The colour, from the sums of the weights times texels and of the weights, which are not 0. Both are
+/// The colour, from the sums of the weights times texels and one over that of the weights. Both sums are
 /// whole numbers below 2⁵³, so the mean of equal texels is one of them.
 #[inline(always)]
-pub(crate) fn mean(sums: [f64; 4], total: i32) -> [f32; 4] {
-    let share = 1.0 / f64::from(total);
+pub(crate) fn mean(sums: [f64; 4], share: f64) -> [f32; 4] {
     sums.map(
         #[inline(always)]
         |sum| (sum * share) as f32 * STEP,

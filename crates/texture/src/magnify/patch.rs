@@ -105,7 +105,7 @@ impl<const C: usize, const R: usize> Patch<f32, C, R> {
                 }
             }
         }
-        mean(sums.map(f64::from), total)
+        mean(sums.map(f64::from), 1.0 / f64::from(total))
     }
 
     /// The same of floats, about a texel, so that a constant stays what it is.
