@@ -225,8 +225,9 @@ pub(crate) struct Quality {
     #[arg(long, value_parser = value::kernel())]
     pub(crate) kernel: Option<Kernel>,
 
-    /// What EWA and probes make of a texture that is magnified: `none` is soft, `taps` is exact for
-    /// bilinear interpolation, the others are sharper [default: the quality's; none, and taps for high]
+    /// What EWA and probes make of a texture that is magnified: `taps` is what a pixel sees of bilinear
+    /// interpolation (of the Gaussian kernel only), `none` is softer, the others are sharper [default: the
+    /// quality's: taps]
     #[arg(long, value_name = "WAY", value_parser = value::magnify())]
     pub(crate) magnify: Option<Magnify>,
 

@@ -34,18 +34,17 @@
 //! | bilinear, two levels (trilinear) | 24 / 29 / 29 | 5 |
 //! | [`Sampler::CLASSIC`]: the method of 2009, for comparison | 26 / 31 / 29 | |
 //! | [`PixelFilter::Probes`], as hardware does it but along the true axis | 40 / 33 / 29 | |
-//! | [`Sampler::FAST`]: previews, video | 34 / 40 / 30 | 29 |
-//! | [`Sampler::DEFAULT`]: everything | 36 / 40 / 50 | 57 |
-//! | [`Sampler::HIGH`]: print, masters | 47 / 52 / 50 | 93 |
-//! | [`Sampler::REFERENCE`]: truth for tests | 46 / 74 / 83 | 150 |
+//! | [`Sampler::FAST`]: previews, video | 45 / 40 / 30 | 36 |
+//! | [`Sampler::DEFAULT`]: everything | 48 / 40 / 49 | 63 |
+//! | [`Sampler::HIGH`]: print, masters | 48 / 51 / 49 | 64 |
+//! | [`Sampler::REFERENCE`]: truth for tests | 46 / 74 / 81 | 150 |
 //!
 //! PSNR against a brute-force Gaussian pixel on a checkerboard, a zone plate, strokes like text and
 //! noise like photographs: on a ground plane to its horizon / a keystone 3 times down / a turn of 30°,
 //! 4 times down. Texels are the mean over the ground plane, those of weight 0 included; time goes with
-//! them. A test holds the presets to these figures. Over the ground plane `FAST` and `DEFAULT` are
-//! bounded by its near part, where a pixel sees less than a texel and a Gaussian stands in for bilinear
-//! reconstruction; `HIGH` integrates the bilinear surface there ([`Magnify::Taps`], some 180 ns a pixel),
-//! which is worth 11 to 17 dB. Toward the horizon all presets do far better than the figure. A preset is
+//! them. A test holds the presets to these figures. Over the near half of the
+//! ground plane a pixel sees less than a texel: all presets integrate the bilinear surface there
+//! ([`Magnify::Taps`]), which is worth 6 to 17 dB over an ellipse. A preset is
 //! as good as its worst scale, just where the ellipse falls on a level's boundary: on text, 31, 33, 42
 //! and 66 dB.
 //!

@@ -148,8 +148,8 @@ pub(crate) struct Filter {
     #[arg(long, value_parser = value::kernel())]
     pub(crate) kernel: Option<Kernel>,
 
-    /// What is made of a picture that is magnified: `none` is soft, `taps` is exact for bilinear
-    /// interpolation, the others are sharper [default: the quality's; none, and taps for high]
+    /// What is made of a picture that is magnified: `taps` is what a pixel sees of bilinear interpolation
+    /// (of the Gaussian kernel only), `none` is softer, the others are sharper [default: the quality's: taps]
     #[arg(long, value_name = "WAY", value_parser = value::magnify())]
     pub(crate) magnify: Option<Magnify>,
 

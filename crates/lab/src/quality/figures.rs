@@ -73,7 +73,7 @@ pub(crate) const FIGURES: [Figure; 6] = [
         order: IN_ORDER,
         look: "A picture of 32×32 texels, seven times up and turned. Nearest shows the texels, trilinear \
                (bilinear here) the lines between their centres, `classic` is sharp, with halos along \
-               dark edges, and `default` soft and free of halos.",
+               dark edges, and `default`, the same lines seen through a pixel, has none.",
         view: views::boat,
         samplers: FOUR,
     },

@@ -58,7 +58,7 @@ const FIGURES: [Figure; 12] = [
         title: "Figure 5: isotropic magnification",
         look: "32×32 texels, seven times up and turned. Nearest shows the texels, trilinear (bilinear here) the lines \
                between them; the Gaussian of radius 1 is soft and ragged; Lanczos 2 is sharp and has halos; our \
-               default is soft and has none. `--magnify` has the choice.",
+               default is trilinear's lines seen through a pixel, and has none. `--magnify` has the choice.",
         draw: methods::magnified,
     },
     Figure {
