@@ -171,8 +171,9 @@ fn kaiser(d: f64) -> f64 {
 /// the outputs share each input evenly whatever its phase. At the half-band's own taps the sum is the
 /// same, and nothing changes.
 fn partition(d: f64) -> f64 {
-    let copies: f64 = (-4..=4).map(|k| kaiser(d + 2.0 * f64::from(k))).sum();
-    kaiser(d) / copies
+    let own = kaiser(d);
+    let copy = |k: i32| if k == 0 { own } else { kaiser(d + 2.0 * f64::from(k)) };
+    own / (-4..=4).map(copy).sum::<f64>()
 }
 
 /// How much of texel `j` lies in [from, to).

@@ -147,12 +147,15 @@ impl Level {
 
     /// Fills the apron of a filled level with what lies there, and makes a tile whose sides are powers
     /// of two go on for ever.
-    pub(crate) fn seal(&mut self, wrap: Wrap) {
+    ///
+    /// Of a level with an outline, the columns of its rows that are stored: beside those that do not
+    /// reach to an end there is nothing to fill, and pages that nobody reads are left alone.
+    pub(crate) fn seal(&mut self, wrap: Wrap, stored: &[Span]) {
         self.frame.ends = matches!(wrap, Wrap::Clamp | Wrap::Constant(_));
         if self.is_float() {
-            self.fill_apron::<[f32; 4]>(wrap);
+            self.fill_apron::<[f32; 4]>(wrap, stored);
         } else {
-            self.fill_apron::<Texel>(wrap);
+            self.fill_apron::<Texel>(wrap, stored);
         }
         let Self { width, height, .. } = *self;
         let short = self.frame.low[0] < self.frame.high[0];
@@ -164,7 +167,7 @@ impl Level {
         }
     }
 
-    fn fill_apron<T: Cell>(&mut self, wrap: Wrap) {
+    fn fill_apron<T: Cell>(&mut self, wrap: Wrap, stored: &[Span]) {
         let Self { width, height, stride, part: [columns, rows], .. } = *self;
         let border = T::of_color(wrap.border());
         let apron = APRON as i32;
@@ -177,9 +180,14 @@ impl Level {
         let left = beside(columns.start as i32 - apron);
         let right = beside(columns.end as i32);
         let memory = T::memory(self);
-        for row in memory.chunks_exact_mut(stride).skip(APRON).take(rows.len()) {
-            for i in 0..APRON {
+        let kept = memory.chunks_exact_mut(stride).skip(APRON).take(rows.len());
+        for (y, row) in kept.enumerate() {
+            let stored = stored.get(y).copied().unwrap_or(columns);
+            let ends = [stored.start == columns.start, stored.end == columns.end];
+            for i in (0..APRON).filter(|_| ends[0] && stored.len() > 0) {
                 row[i] = left[i].map_or(border, |from| row[from]);
+            }
+            for i in (0..APRON).filter(|_| ends[1] && stored.len() > 0) {
                 row[APRON + columns.len() + i] = right[i].map_or(border, |from| row[from]);
             }
         }

@@ -68,7 +68,8 @@
 //!   and a third more for the pyramid. Rounding to a step is noise at −95 dB. Images in more than eight
 //!   bits and in floats are stored as floats, 16 bytes a texel, as bright as they are ([`Storage`]).
 //! - Only what is asked for is made and kept: [`Levels`] says which levels, [`TextureOptions::window`]
-//!   which part of the image, and [`TextureBuilder`] takes rows as a decoder yields them.
+//!   which part of the image, [`TextureOptions::outlines`] which parts of the finest levels, and
+//!   [`TextureBuilder`] takes rows as a decoder yields them.
 //! - A pixel of the ground plane (`cargo bench`, one core of a server with 512-bit vectors) by
 //!   [`Texture::sample_row`]: nearest 6 ns, bilinear 12, trilinear 15, [`Sampler::FAST`] 38 and
 //!   [`Sampler::DEFAULT`] 61, of which some 15 are set-up; each of the 30 and 56 texels that they read
@@ -133,6 +134,7 @@ mod mixture;
 mod names;
 mod number;
 mod options;
+mod outline;
 mod place;
 mod point;
 mod probes;
@@ -163,6 +165,7 @@ pub use kernel::{Kernel, RadialFilter};
 pub use magnify::Magnify;
 pub use names::UnknownName;
 pub use options::{Decimation, Levels, Storage, TextureOptions};
+pub use outline::Outline;
 pub use probes::Probes;
 pub use sampler::{LevelMode, PixelFilter, Sampler};
 pub use separable::Separable;

@@ -1,4 +1,4 @@
-use crate::Wrap;
+use crate::{Outline, Wrap};
 use scumble_geometry::IntRect;
 use scumble_pixel::WorkingSpace;
 
@@ -111,4 +111,21 @@ pub struct TextureOptions {
     /// so where it repeats or mirrors the window must hold what is read there. What lies outside the
     /// image is taken off the window, and of a window without a texel one is kept.
     pub window: Option<IntRect>,
+    /// What samples read of the finest levels, from level 0 on, where that is less than the window: a
+    /// plane to its horizon is read in level 0 only where it is near. With the same promise, which
+    /// counts for more here: what lies outside of an outline may never be stored, and then has no
+    /// meaning, nor has the mean that stands for footprints without a place or an end. Where texels
+    /// repeat, only the bounds of outlines count.
+    pub outlines: [Option<Outline>; OUTLINES],
+}
+
+/// How many levels can have an outline. All others together are 1/48 of the memory, and coarser ones may
+/// be made of the last that is kept.
+const OUTLINES: usize = 3;
+
+impl TextureOptions {
+    /// The outline of what is read of a level, if it has one.
+    pub(crate) fn outline(&self, level: usize) -> Option<&Outline> {
+        self.outlines.get(level)?.as_ref()
+    }
 }

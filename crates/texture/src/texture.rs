@@ -144,8 +144,10 @@ impl Texture {
             [base, ..] => base.mean(),
             [] => return Err(TextureError::Empty),
         };
-        levels.iter_mut().for_each(|level| level.seal(wrap));
         let first = plan::kept_levels(size, options.levels).start;
+        for (l, level) in levels.iter_mut().enumerate() {
+            level.seal(wrap, &plan::stored_rows(size, first + l, options));
+        }
         let nearer = size.map(|n| Nearer::new(wrap, n));
         let simd = Simd::best();
         Ok(Self { levels, first, size, wrap, space, average, bounded, nearer, simd })
@@ -227,9 +229,7 @@ impl Texture {
         let float = options.storage.is_float(true);
         let texel = if float { size_of::<[f32; 4]>() } else { size_of::<Texel>() };
         for l in levels.start..levels.end {
-            let size = plan::size_of_level([width, height], l);
-            let part = plan::kept_part([width, height], size, options);
-            let texels = texels_kept(part)?;
+            let texels = texels_kept(plan::kept_part([width, height], l, options))?;
             bytes = bytes.checked_add(texels.checked_mul(texel)?)?;
         }
         isize::try_from(bytes).ok().map(isize::unsigned_abs)

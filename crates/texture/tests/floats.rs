@@ -19,6 +19,7 @@ const LINEAR: TextureOptions = TextureOptions {
     levels: scumble_texture::Levels::All,
     storage: Storage::Auto,
     window: None,
+    outlines: [None; 3],
 };
 
 fn samplers() -> Vec<Sampler> {

@@ -50,6 +50,7 @@ impl Fuzz {
             levels: self.pick(&[Levels::All, Levels::All, Levels::BaseOnly, range]),
             storage: self.pick(&[Storage::Auto, Storage::Auto, Storage::Float]),
             window: self.pick(&[None, None, Some(window)]),
+            ..TextureOptions::default()
         }
     }
 

@@ -37,6 +37,7 @@ fn options() -> impl Strategy<Value = TextureOptions> {
         decimation,
         levels,
         window: None,
+        outlines: [None; 3],
         storage,
     })
 }

@@ -8,9 +8,9 @@ use proptest::prelude::*;
 use scumble_geometry::{IntRect, Matrix2};
 use scumble_pixel::{Image, Premul, WorkingSpace};
 use scumble_texture::{
-    Decimation, Footprint, Kernel, LevelMode, Levels, Magnify, PixelFilter, Sampler, Separable,
-    Simd, Storage, StraightAlpha, TexelFormat, Texels, Texture, TextureBuilder, TextureError,
-    TextureOptions, Wrap,
+    Decimation, Footprint, Kernel, LevelMode, Levels, Magnify, Outline, PixelFilter, Sampler,
+    Separable, Simd, Storage, StraightAlpha, TexelFormat, Texels, Texture, TextureBuilder,
+    TextureError, TextureOptions, Wrap,
 };
 
 const WRAPS: [Wrap; 4] =
@@ -35,6 +35,7 @@ fn options() -> impl Strategy<Value = TextureOptions> {
             decimation,
             levels,
             window: window.map(|(x, y, w, h)| IntRect::new(x, y, x + w, y + h)),
+            ..TextureOptions::default()
         },
     )
 }
@@ -90,9 +91,10 @@ proptest! {
         }
     }
 
-    /// Footprints whose reach is in the window, by every filter.
+    /// Footprints whose reach is in the window, or in a part of outlines, by every filter.
     #[test]
     fn samples_inside_a_window_are_those_of_the_whole(
+        outlined: bool,
         (w, h) in (90usize..300, 90usize..300),
         (x, y) in (0usize..100, 0usize..100),
         side in 10usize..160,
@@ -106,7 +108,14 @@ proptest! {
         let window = IntRect::new(x, y, x + side as i32, y + side as i32);
         let whole = TextureOptions { window: None, ..options };
         let whole = Texture::new(image.view(), &whole).unwrap();
-        let options = TextureOptions { window: Some(window), ..options };
+        let mut outline = Outline::new(h);
+        outline.add(window);
+        outline.add(IntRect::new(w as i32 - x, h as i32 - y, w as i32, h as i32));
+        let options = if outlined {
+            TextureOptions { window: None, outlines: [Some(outline); 3], ..options }
+        } else {
+            TextureOptions { window: Some(window), ..options }
+        };
         let part = Texture::new(image.view(), &options).unwrap();
         let mut random = Random::new(seed);
         let s = Sampler::DEFAULT;
@@ -144,6 +153,32 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn outlines_take_less_memory_and_keep_what_they_hold() {
+    let image = noise(640, 640, 3);
+    let mut outline = Outline::new(640);
+    outline.add(IntRect::new(500, 0, 520, 20));
+    outline.add(IntRect::new(100, 620, 120, 640));
+    let whole = Texture::new(image.view(), &TextureOptions::default()).unwrap();
+    let outlines = [Some(outline), None, None];
+    let options = TextureOptions { outlines, ..TextureOptions::default() };
+    let part = Texture::new(image.view(), &options).unwrap();
+    let (fine, all) = (part.level(0).unwrap(), whole.level(0).unwrap());
+    assert_eq!(fine.row(10)[500..520], all.row(10)[500..520]);
+    assert_eq!(fine.row(630)[100..120], all.row(630)[100..120]);
+    // What lies between them is not stored.
+    assert_eq!(fine.row(300)[200], [0.0; 4]);
+    assert_eq!(part.level(1), whole.level(1));
+    // Where little is read, little is had.
+    let mut outline = Outline::new(640);
+    outline.add(IntRect::new(500, 0, 520, 20));
+    let options = TextureOptions { outlines: [Some(outline), None, None], ..options };
+    let part = Texture::new(image.view(), &options).unwrap();
+    assert_eq!(part.level_window(0), Some(IntRect::new(492, 0, 528, 28)));
+    assert_eq!(part.level(1), whole.level(1));
+    assert!(part.memory() < whole.memory() / 3);
 }
 
 #[test]

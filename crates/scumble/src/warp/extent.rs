@@ -4,10 +4,16 @@
 use super::Map;
 use super::view::View;
 use crate::geometry::{DVec2, DVec3, Homography, IntRect, Matrix2, Rect};
-use crate::texture::{Footprint, Sampler};
+use crate::texture::{Footprint, Levels, Outline, Sampler};
 
 /// Cells along each axis into which the output is cut for the bounds.
 const CELLS: u32 = 32;
+
+/// How many times as far away the farthest of a cell may be as the nearest, for close bounds.
+const FURTHER: f64 = 1.2;
+
+/// How often a cell is halved at most to come to that.
+const HALVINGS: usize = 5;
 
 /// The part of a source from which on all of it is taken.
 const WORTH: f64 = 0.5;
@@ -65,45 +71,36 @@ impl Extent {
         all
     }
 
-    /// The part of a source that some pixels of the output read; `None` for all of it, or most. The
+    /// The parts of a source that some pixels of the output read; `None` where they may be anywhere. The
     /// source either ends at its edge or goes on with the texels there.
-    pub(super) fn window(
+    pub(super) fn parts(
         map: &Homography,
         area: IntRect,
         (source, ends): ([usize; 2], bool),
         sampler: &Sampler,
-    ) -> Option<IntRect> {
-        let mut read: Option<Rect> = None;
+    ) -> Option<Parts> {
+        let mut read = Read::new(source);
         let view = View::new(*map, ends.then_some(source));
-        for corners in cells(area) {
+        for corners in cells(area).flat_map(|cell| divided(map, cell)) {
+            let ends = corners.map(|p| map.project_homogeneous(p));
+            let behind = ends.iter().any(|p| p.z <= 0.0);
+            read.horizon |= behind;
             if view.misses(&corners) {
                 continue;
             }
-            let ends = corners.map(|p| map.project_homogeneous(p));
-            if ends.iter().any(|p| p.z <= 0.0) {
+            if behind {
                 return None;
             }
-            let major = Self::before_eye(map, &ends).most[0];
+            let extent = Self::before_eye(map, &ends);
+            let major = extent.most[0];
             let jacobian = Matrix2::new(major, 0.0, 0.0, major);
             let [across, down] = sampler.reach(&Footprint { u: 0.0, v: 0.0, jacobian });
             let reach = DVec2::new(across, down);
             let places = ends.map(|p| DVec2::new(p.x / p.z, p.y / p.z));
-            let around = places.iter().flat_map(|p| [*p - reach, *p + reach]);
-            let seen = read.into_iter().flat_map(|r| r.corners());
-            read = Some(Rect::bounding(around.chain(seen))?);
+            let around = Rect::bounding(places.iter().flat_map(|p| [*p - reach, *p + reach]))?;
+            read.add(around, sampler.levels_for(extent.least, extent.most));
         }
-        let [width, height] = source.map(|n| n as f64);
-        let read = read.unwrap_or(Rect::new(0.0, 0.0, 1.0, 1.0));
-        // From the texel nearest to the one end to the one nearest to the other.
-        let span = |low: f64, high: f64, n: f64| {
-            // In this form a NaN and a side of nothing are no panic.
-            let low = low.floor().max(0.0).min(n - 1.0);
-            (low, high.ceil().max(low + 1.0).min(n))
-        };
-        let ((x0, x1), (y0, y1)) = (span(read.x0, read.x1, width), span(read.y0, read.y1, height));
-        // A NaN is the whole. Sides of textures are below 2²⁹.
-        let part = (x1 - x0) * (y1 - y0) < WORTH * width * height;
-        part.then(|| IntRect::new(x0 as i32, y0 as i32, x1 as i32, y1 as i32))
+        Some(read.parts())
     }
 
     /// By interval arithmetic: position and w are between those at the corners, the Jacobian's entries
@@ -143,6 +140,68 @@ impl Extent {
     }
 }
 
+/// The parts of a source that are read; none for all of it, or most.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Parts {
+    pub(super) window: Option<IntRect>,
+    /// Of the finest levels, from level 0 on.
+    pub(super) outlines: [Option<Outline>; 3],
+}
+
+/// What has been found to be read of a source.
+#[derive(Debug)]
+struct Read {
+    source: [usize; 2],
+    /// In texels, each coordinate cut to the source.
+    all: Option<IntRect>,
+    levels: [Outline; 3],
+    /// Whether the horizon may be seen.
+    horizon: bool,
+}
+
+impl Read {
+    fn new(source: [usize; 2]) -> Self {
+        Self { source, all: None, levels: [Outline::new(source[1]); 3], horizon: false }
+    }
+
+    /// Adds a part that is read in some levels.
+    fn add(&mut self, part: Rect, levels: Levels) {
+        let [width, height] = self.source;
+        let (first, last) = match levels {
+            Levels::BaseOnly => (0, 0),
+            Levels::Range { first, last } => (first, last),
+            Levels::All => (0, usize::MAX),
+        };
+        // What asks for a coarser level than there is reads the last.
+        let first = first.min(width.max(height).max(1).ilog2() as usize);
+        // From the texel nearest to the one end to the one nearest to the other.
+        let span = |low: f64, high: f64, n: usize| {
+            // In this form a NaN and a side of nothing are no panic, and a NaN is the whole. Sides of
+            // textures are below 2²⁹.
+            let n = n as f64;
+            let low = low.floor().max(0.0).min(n - 1.0);
+            (low as i32, high.ceil().max(low + 1.0).min(n) as i32)
+        };
+        let ((x0, x1), (y0, y1)) = (span(part.x0, part.x1, width), span(part.y0, part.y1, height));
+        let part = IntRect::new(x0, y0, x1, y1);
+        self.all = Some(self.all.map_or(part, |all| {
+            IntRect::new(all.x0.min(x0), all.y0.min(y0), all.x1.max(x1), all.y1.max(y1))
+        }));
+        let read = self.levels.iter_mut().enumerate().filter(|(l, _)| (first..=last).contains(l));
+        read.for_each(|(_, outline)| outline.add(part));
+    }
+
+    fn parts(&self) -> Parts {
+        let [width, height] = self.source.map(|n| n as f64);
+        let window = self.all.unwrap_or(IntRect::new(0, 0, 1, 1));
+        let texels = f64::from(window.width()) * f64::from(window.height());
+        let window = (texels < WORTH * width * height).then_some(window);
+        // At the horizon the mean of all that is kept is seen.
+        let outlines = self.levels.map(|outline| (!self.horizon).then_some(outline));
+        Parts { window, outlines }
+    }
+}
+
 /// The pixels of an output.
 fn all_of([width, height]: [u32; 2]) -> IntRect {
     // Outputs are at most 2³⁰ − 1 pixels on a side.
@@ -164,6 +223,34 @@ fn cells(area: IntRect) -> impl Iterator<Item = [DVec2; 4]> {
             [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j): (usize, usize)| DVec2::new(x[i], y[j]))
         })
     })
+}
+
+/// The parts of a cell in which everything is about as far away, by halving it across.
+fn divided(map: &Homography, cell: [DVec2; 4]) -> Vec<[DVec2; 4]> {
+    let mut parts = vec![cell];
+    for _ in 0..HALVINGS {
+        let split = |part: [DVec2; 4]| {
+            let [a, b, c, d] = part;
+            let far = part.map(|p| map.project_homogeneous(p).z);
+            let (least, most) =
+                far.iter().fold((f64::INFINITY, 0.0f64), |(l, m), z| (l.min(*z), m.max(*z)));
+            if most < FURTHER * least || least <= 0.0 {
+                return [Some(part), None];
+            }
+            if (far[1] - far[0]).abs() > (far[3] - far[0]).abs() {
+                let (top, bottom) = ((a + b) * 0.5, (c + d) * 0.5);
+                return [Some([a, top, bottom, d]), Some([top, b, c, bottom])];
+            }
+            let (left, right) = ((a + d) * 0.5, (b + c) * 0.5);
+            [Some([a, b, right, left]), Some([left, right, c, d])]
+        };
+        let count = parts.len();
+        parts = parts.into_iter().flat_map(split).flatten().collect();
+        if parts.len() == count {
+            break;
+        }
+    }
+    parts
 }
 
 /// All numbers from one to another.
@@ -239,7 +326,8 @@ mod tests {
             let (output, source) = ([70, 90], [30, 40]);
             let all = Extent::of(&map, output, None);
             let visible = Extent::of(&map, output, Some(source));
-            let window = Extent::window(&map, all_of(output), (source, true), &Sampler::DEFAULT);
+            let sampler = Sampler::DEFAULT;
+            let parts = Extent::parts(&map, all_of(output), (source, true), &sampler);
             for y in 0..output[1] {
                 for x in 0..output[0] {
                     let p = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
@@ -253,9 +341,21 @@ mod tests {
                             prop_assert!(within || !counts, "{axis} {bounds:?}");
                         }
                     }
-                    if let Some(window) = window && inside {
-                        let read = window.contains(f.u as i32, f.v as i32);
-                        prop_assert!(read, "{f:?} {window:?}");
+                    let Some(Parts { window, outlines }) = parts.filter(|_| inside) else {
+                        continue;
+                    };
+                    let (u, v) = (f.u as i32, f.v as i32);
+                    prop_assert!(window.is_none_or(|w| w.contains(u, v)), "{f:?} {window:?}");
+                    let axes = [axes.major, axes.minor];
+                    let (first, last) = match sampler.levels_for(axes, axes) {
+                        Levels::BaseOnly => (0, 0),
+                        Levels::Range { first, last } => (first, last),
+                        Levels::All => (0, usize::MAX),
+                    };
+                    for (l, outline) in outlines.iter().flatten().enumerate() {
+                        let columns = outline.columns(v, v + 1);
+                        let read = columns.is_some_and(|[x0, x1]| (x0..x1).contains(&u));
+                        prop_assert!(read || !(first..=last).contains(&l), "{l} {f:?} {outline:?}");
                     }
                 }
             }
@@ -289,7 +389,8 @@ mod tests {
     fn a_window_is_what_is_seen() {
         let part = Homography::new([[0.1, 0.0, 500.0], [0.0, 0.1, 600.0], [0.0, 0.0, 1.0]]);
         let window = |map: &Homography| {
-            Extent::window(map, all_of([100, 50]), ([1000, 1000], true), &Sampler::DEFAULT)
+            let source = ([1000, 1000], true);
+            Extent::parts(map, all_of([100, 50]), source, &Sampler::DEFAULT)?.window
         };
         let found = window(&part).unwrap();
         assert!(found.x0 > 490 && found.y1 < 615 && found.contains(509, 604), "{found:?}");

@@ -102,7 +102,9 @@ impl<M: Map> Warp<M> {
         let periodic = matches!(self.border, Border::Repeat | Border::Mirror);
         let map = self.map.homography().filter(|_| !periodic && levels != Levels::All);
         let source = (size, self.border.ends());
-        let window = map.and_then(|map| Extent::window(&map, area, source, &self.sampler));
+        let parts = map.and_then(|map| Extent::parts(&map, area, source, &self.sampler));
+        let window = parts.and_then(|parts| parts.window);
+        let outlines = parts.map(|parts| parts.outlines).unwrap_or_default();
         let levels = match levels {
             // Down to a single texel, which is the mean: those take little more.
             Levels::Range { first, .. } if window.is_none() => {
@@ -111,7 +113,9 @@ impl<M: Map> Warp<M> {
             levels => levels,
         };
         let wrap = self.border.wrap(self.space, opaque);
-        TextureOptions { space: self.space, wrap, levels, window, ..TextureOptions::default() }
+        let space = self.space;
+        let options = TextureOptions::default();
+        TextureOptions { space, wrap, levels, window, outlines, ..options }
     }
 
     pub(super) fn check_memory<E>(&self, needed: u64) -> Result<(), WarpError<E>> {

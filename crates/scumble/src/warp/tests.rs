@@ -4,7 +4,9 @@ use super::painter::centre;
 use super::{Border, Lookup, Map, Prepared, Warp};
 use crate::geometry::{DVec2, Homography, IntRect};
 use crate::pixel::{Image, Premul, Straight, WorkingSpace};
-use crate::texture::{Footprint, LevelMode, Magnify, PixelFilter, Sampler};
+use crate::texture::{
+    Footprint, LevelMode, Magnify, PixelFilter, Sampler, Texture, TextureOptions,
+};
 use crate::{Control, ImageSink};
 use proptest::prelude::*;
 
@@ -114,6 +116,32 @@ proptest! {
         let (own, plain) = (rows(&own, WIDTH), rows(&plain, WIDTH));
         for (i, (own, plain)) in own.iter().zip(&plain).enumerate() {
             prop_assert_eq!(own.0, plain.0, "{}", i);
+        }
+    }
+
+    #[test]
+    fn what_is_not_kept_is_not_read(
+        (eye, horizon, side) in (5.0..60.0f64, -60.0..-6.0f64, -0.3..0.3f64),
+        sampler in sampler(), border in border(),
+    ) {
+        // A plane to its horizon, which lies above the picture.
+        let row = |across: f64, along: f64| {
+            [eye * (across + side), 0.0, along * eye * 100.0 - eye * across * 30.0]
+        };
+        let map = Homography::new([row(1.0, 0.4), row(-0.6, 0.5), [0.0, 1.0, -horizon]]);
+        let source = Image::from_fn(700, 500, |x, y| {
+            let v = (x * 7919 + y * 104_729) % 251;
+            [v as u8, (v * y) as u8, (v * x) as u8, 255]
+        })
+        .unwrap();
+        let warp = warp(map, sampler, border);
+        let Ok(mut prepared) = warp.prepare(&source.view()) else { return Ok(()) };
+        let part = rows(&prepared, WIDTH);
+        let wrap = border.wrap(warp.space, true);
+        let options = TextureOptions { space: warp.space, wrap, ..TextureOptions::default() };
+        prepared.texture = Texture::new(source.view(), &options).unwrap();
+        for (i, (part, whole)) in part.iter().zip(&rows(&prepared, WIDTH)).enumerate() {
+            prop_assert_eq!(part.0, whole.0, "{}", i);
         }
     }
 

@@ -76,7 +76,7 @@ pub(crate) fn image<T: Cell, P: Channels, A: Alpha>(
 ) -> Result<Vec<Level>, TextureError> {
     let mut making = Making::<T>::new([view.width(), view.height()], options, old)?;
     #[cfg(feature = "parallel")]
-    if options.window.is_none()
+    if making.plan.is_whole()
         && bands::fill::<T, P, A>(view, decoder, &making.plan, &mut making.levels)?
     {
         return Ok(making.finish());

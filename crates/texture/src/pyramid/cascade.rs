@@ -127,10 +127,12 @@ impl<T: Cell> Cascade<T> {
         let rung = &mut self.rungs[at];
         let (level, y) = (self.base + at, rung.index());
         if let Some([columns, _]) = plan.levels[level].kept
+            && let Some(stored) = plan.levels[level].stored(y)
             && let Some(row) = sink.row(level, y)
         {
-            let from = columns.start - rung.columns().start;
-            row[..columns.len()].copy_from_slice(&rung.slot()[from..from + columns.len()]);
+            let (from, to) = (stored.start - rung.columns().start, stored.start - columns.start);
+            let texels = &rung.slot()[from..from + stored.len()];
+            row[to..to + stored.len()].copy_from_slice(texels);
         }
         rung.advance();
     }

@@ -2,12 +2,17 @@
 
 use crate::decimate::Taps;
 use crate::level::LARGEST;
-use crate::{Levels, TextureError, TextureOptions, Wrap};
+use crate::{Decimation, Levels, TextureError, TextureOptions, Wrap};
 use alloc::vec::Vec;
+use scumble_geometry::IntRect;
 
 /// Texels of a level that are kept on every side of a window: what an ellipse reads by blocks, and
 /// what a level adds to its radius, is no more.
 const MARGIN: usize = 8;
+
+/// How many times as many texels there must be around an outline: whole levels can be made on several
+/// threads, and of their memory the system gives only what is written.
+const WORTH: usize = 2;
 
 /// Indices along an axis: `start..end`, never empty.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,8 +76,27 @@ pub(crate) struct LevelPlan {
     pub(crate) made: [Span; 2],
     /// Columns and rows that are kept, all of them made.
     pub(crate) kept: Option<[Span; 2]>,
+    /// The columns of each row of those that are stored, which may be none; none if all are.
+    stored: Vec<Span>,
     /// The filters along columns and rows to the next level; none from the last.
     pub(crate) taps: Option<[Taps; 2]>,
+}
+
+/// The filters along columns and rows. Those of sizes that are not even take some time to find.
+fn taps([width, height]: [usize; 2], decimation: Decimation, wrap: Wrap) -> [Taps; 2] {
+    let columns = Taps::new(width, decimation, wrap);
+    let rows = if width == height { columns.clone() } else { Taps::new(height, decimation, wrap) };
+    [columns, rows]
+}
+
+impl LevelPlan {
+    /// The columns of row `y` that are stored, if there are any.
+    #[inline(always)]
+    pub(crate) fn stored(&self, y: usize) -> Option<Span> {
+        let [columns, rows] = self.kept?;
+        let stored = self.stored.get(y.wrapping_sub(rows.start)).copied().unwrap_or(columns);
+        (stored.start < stored.end).then_some(stored)
+    }
 }
 
 /// The levels from the image to the last that is kept.
@@ -104,20 +128,42 @@ pub(crate) fn kept_levels([width, height]: [usize; 2], levels: Levels) -> Span {
     }
 }
 
-/// The columns and rows of a level that are kept for a window of the image, or all.
-pub(crate) fn kept_part(
-    image: [usize; 2],
-    level: [usize; 2],
-    options: &TextureOptions,
-) -> [Span; 2] {
-    let wrap = options.wrap;
-    match options.window {
-        None => level.map(Span::all),
-        Some(w) => [
-            Span::under([w.x0, w.x1], level[0], image[0], wrap),
-            Span::under([w.y0, w.y1], level[1], image[1], wrap),
-        ],
+/// The columns and rows of level `l` that are kept for a window of the image, or all: around an outline,
+/// if that is much less.
+pub(crate) fn kept_part(image: [usize; 2], l: usize, options: &TextureOptions) -> [Span; 2] {
+    let (size, wrap) = (size_of_level(image, l), options.wrap);
+    let under = |w: IntRect| {
+        let rows = Span::under([w.y0, w.y1], size[1], image[1], wrap);
+        [Span::under([w.x0, w.x1], size[0], image[0], wrap), rows]
+    };
+    let texels = |[columns, rows]: [Span; 2]| columns.len().saturating_mul(rows.len());
+    let window = options.window.map_or(size.map(Span::all), under);
+    match options.outline(l).map(|outline| under(outline.bounds())) {
+        Some(part) if texels(part) < texels(window) / WORTH => part,
+        _ => window,
     }
+}
+
+/// The columns of each row of level `l` that are stored, of the part that is kept; none if that is all
+/// of them.
+pub(crate) fn stored_rows(image: [usize; 2], l: usize, options: &TextureOptions) -> Vec<Span> {
+    let Some(outline) = options.outline(l).filter(|_| options.wrap != Wrap::Repeat) else {
+        return Vec::new();
+    };
+    let size = size_of_level(image, l);
+    let [columns, rows] = kept_part(image, l, options);
+    // Sides are below 2²⁹.
+    let row = |y: usize| (y as u64 * image[1] as u64 / size[1] as u64) as i32;
+    let stored = |y: usize| {
+        let read = outline.columns(row(y.saturating_sub(MARGIN)), row(y + 1 + MARGIN) + 1);
+        let none = Span { start: columns.start, end: columns.start };
+        read.map_or(none, |read| {
+            let Span { start, end } = Span::under(read, size[0], image[0], options.wrap);
+            let start = start.clamp(columns.start, columns.end);
+            Span { start, end: end.clamp(start, columns.end) }
+        })
+    };
+    (rows.start..rows.end).map(stored).collect()
 }
 
 /// Whether a texture of this size can be made.
@@ -139,19 +185,29 @@ impl Plan {
         let kept = kept_levels(image, options.levels);
         let level = |l: usize| {
             let size = size_of_level(image, l);
-            let part = kept_part(image, size, options);
+            let part = kept_part(image, l, options);
             let more = l + 1 < kept.end;
             LevelPlan {
                 size,
                 made: part,
                 kept: kept.holds(l).then_some(part),
-                taps: more.then(|| size.map(|n| Taps::new(n, decimation, wrap))),
+                stored: stored_rows(image, l, options),
+                taps: more.then(|| taps(size, decimation, wrap)),
             }
         };
         let levels: Vec<LevelPlan> = (0..kept.end).map(level).collect();
         let mut plan = Self { levels, first: kept.start, circular: false };
         plan.trace(wrap);
         plan
+    }
+
+    /// Whether all of every level is made, and kept if any of it is.
+    #[cfg(feature = "parallel")]
+    pub(crate) fn is_whole(&self) -> bool {
+        self.levels.iter().all(|level| {
+            let whole = level.size.map(Span::all);
+            level.made == whole && level.kept.is_none_or(|part| part == whole)
+        })
     }
 
     /// Finds what each level must be made of, from the last down.
