@@ -58,6 +58,7 @@ extern crate alloc;
 
 mod encode;
 mod exposure;
+mod gradient;
 mod level;
 mod palette;
 mod samples;
@@ -67,6 +68,7 @@ mod visibility;
 
 pub use encode::{encode_row, encode_row_dithered, encode_row16};
 pub use exposure::Exposure;
+pub use gradient::Gradient;
 pub use palette::Palette;
 pub use tile::Tile;
-pub use visibility::{PixelColors, Seen, Visibility};
+pub use visibility::{Seen, Visibility};

@@ -44,13 +44,6 @@ pub struct Visibility {
     level: Best,
 }
 
-/// The colours of keys in a row, for [`Visibility::shade_pixels`].
-pub trait PixelColors {
-    /// The colour of a key in the pixel of column `x`, a whole number. It may be asked for a key that
-    /// was never drawn, whose colour goes nowhere. To be inlined always.
-    fn at(&self, key: u32, x: f64) -> Premul;
-}
-
 /// What is seen in some pixels of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Seen<'a> {
@@ -321,57 +314,6 @@ impl Visibility {
         }
     }
 
-    /// [`shade_row`](Self::shade_row) for colours that are quick to find: they are asked for pixel by
-    /// pixel, and for each sample of a mixed one, so that nothing hangs on how long a stretch is.
-    #[inline]
-    pub fn shade_pixels(&self, y: u32, out: &mut [Premul], colors: &impl PixelColors) {
-        #[cfg(feature = "std")]
-        fearless_simd::dispatch!(self.level.0, _simd => self.shade_pixels_by(y, out, colors));
-        #[cfg(not(feature = "std"))]
-        self.shade_pixels_by(y, out, colors);
-    }
-
-    // Inlined, so that it runs on the instructions of its caller.
-    #[inline(always)]
-    fn shade_pixels_by(&self, y: u32, out: &mut [Premul], colors: &impl PixelColors) {
-        let (start, keys) = self.keys(y);
-        let len = keys.len().min(out.len());
-        let ((eights, rest), (eight_outs, rest_outs)) =
-            (keys[..len].as_chunks::<SIDE>(), out[..len].as_chunks_mut::<SIDE>());
-        let mut x = 0.0;
-        for (keys, outs) in eights.iter().zip(eight_outs) {
-            for (c, (&key, out)) in keys.iter().zip(outs).enumerate() {
-                *out = colors.at(key, x + c as f64);
-            }
-            x += SIDE as f64;
-        }
-        for (&key, out) in rest.iter().zip(rest_outs) {
-            *out = colors.at(key, x);
-            x += 1.0;
-        }
-        if self.groups == 0 {
-            return;
-        }
-        for (first, (keys, out)) in (0..).step_by(64).zip(keys.chunks(64).zip(out.chunks_mut(64))) {
-            let mut mixed = mixed_bits(keys, out.len());
-            while mixed != 0 {
-                let place = mixed.trailing_zeros() as usize;
-                let pixel = start + first + place;
-                let x = (first + place) as f64;
-                out[place] = if self.groups == 1 && self.samples == GROUP {
-                    let [a, b, c, d] = self.mixed[pixel];
-                    let color =
-                        [colors.at(a, x), colors.at(b, x), colors.at(c, x), colors.at(d, x)];
-                    mean4(color)
-                } else {
-                    let keys = self.samples_of(pixel);
-                    mean_of(keys.len(), |s| colors.at(keys[s], x))
-                };
-                mixed &= mixed - 1;
-            }
-        }
-    }
-
     /// What is seen in a row, from left to right; nothing if there is no such row.
     pub fn row(&self, y: u32) -> impl Iterator<Item = Seen<'_>> {
         let (start, row) = self.keys(y);
@@ -419,6 +361,7 @@ fn fill(run: &mut [u32], key: u32) {
     }
 }
 
+mod gradients;
 mod squares;
 #[cfg(test)]
 mod tests;

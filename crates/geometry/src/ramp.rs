@@ -21,11 +21,14 @@ use crate::{DVec2, DVec3, GeometryError, Interpolator};
 pub struct Ramp<const N: usize> {
     interpolator: Interpolator,
     values: [[f64; N]; 3],
-    /// Without perspective, the same in a form that is quick to evaluate.
+    /// Without perspective (near, and not too steep), the same in a form that is quick to evaluate.
     plane: Option<Plane<N>>,
     low: [f32; N],
     high: [f32; N],
 }
+
+/// Pixels up to here from the origin are whole numbers of pixels apart that fit an `i32`.
+const FARTHEST: f64 = (1 << 29) as f64;
 
 impl<const N: usize> Ramp<N> {
     /// Values at three vertices in homogeneous screen coordinates (X, Y, w), as for
@@ -39,14 +42,17 @@ impl<const N: usize> Ramp<N> {
         let low = core::array::from_fn(|i| a[i].min(b[i]).min(c[i]));
         let high = core::array::from_fn(|i| a[i].max(b[i]).max(c[i]));
         let values = values.map(|value| value.map(f64::from));
-        let plane = interpolator.is_affine().then(|| {
-            let origin = positions[0].truncate() / positions[0].z;
+        // The centre of a pixel, so that from others it is whole numbers away.
+        let origin = (positions[0].truncate() / positions[0].z).floor() + 0.5;
+        let is_near = origin.abs().max_element() <= FARTHEST;
+        let plane = (is_near && interpolator.is_affine()).then(|| {
             let at = |p| interpolator.interpolate(p, &values);
             let (here, right, below) = (at(origin), at(origin + DVec2::X), at(origin + DVec2::Y));
             let slope = |to: [f64; N]| core::array::from_fn(|i| (to[i] - here[i]) as f32);
             let (right, below) = (slope(right), slope(below));
             Plane { origin, here: here.map(|v| v as f32), right, below, low, high }
         });
+        let plane = plane.filter(Plane::is_tame);
         Ok(Self { interpolator, values, plane, low, high })
     }
 
@@ -56,7 +62,8 @@ impl<const N: usize> Ramp<N> {
         self.low
     }
 
-    /// Without perspective: the same values, pixel by pixel.
+    /// The same values, pixel by pixel: without perspective, less than 2²⁹ pixels from the origin, and
+    /// not so steep that a sum could overflow.
     #[must_use]
     pub fn plane(&self) -> Option<&Plane<N>> {
         self.plane.as_ref()

@@ -1,13 +1,13 @@
 //! One tile: replays its primitives in order, then resolves.
 
-use crate::paint::{Paint, RowColors};
+use crate::paint::Paint;
 use crate::painter::{Painter, Stamp, centre};
 use crate::plan::{Draw, Effect, Form, Plan};
 use crate::strips::Wanted;
 use crate::{Antialias, Settings};
 use scumble_coverage::{AreaStrip, Cover, Scratch, Sink, hairline};
-use scumble_framebuffer::{Palette, Tile, Visibility, encode_row};
-use scumble_geometry::{IntRect, Plane};
+use scumble_framebuffer::{Gradient, Palette, Tile, Visibility, encode_row};
+use scumble_geometry::IntRect;
 use scumble_pixel::Premul;
 
 /// What a worker keeps from tile to tile, so that nothing is allocated in the steady state.
@@ -96,7 +96,8 @@ impl Job<'_> {
         let space = self.settings.space;
         let palette =
             if effect == Effect::Flat { self.palette(locals) } else { Palette::new(space) };
-        let planes = if effect == Effect::Ramps { self.planes(locals) } else { Vec::new() };
+        let gradients =
+            if effect == Effect::Ramps { self.gradients(rect, locals) } else { Vec::new() };
         colors.clear();
         colors.resize(rect.width() as usize, Premul::TRANSPARENT);
         for (y, row) in (0..).zip(rows) {
@@ -106,8 +107,8 @@ impl Job<'_> {
                     continue;
                 }
                 Effect::Ramps => {
-                    let start = centre(rect.x0, rect.y0 + y as i32);
-                    seen.shade_pixels(y, colors, &RowColors { planes: &planes, start });
+                    seen.encode_gradients(y, &gradients, space, row);
+                    continue;
                 }
                 Effect::Hides => seen.shade_row(y, colors, |key, x, out| {
                     let place = centre(rect.x0 + x as i32, rect.y0 + y as i32);
@@ -130,10 +131,10 @@ impl Job<'_> {
         }
     }
 
-    /// The colours of the background and of primitives, each a plane.
-    fn planes(&self, locals: &[Local<'_>]) -> Vec<Plane<4>> {
-        let background = std::iter::once(Plane::constant(self.background.0));
-        background.chain(locals.iter().map(|local| local.draw.paint.plane())).collect()
+    /// The colours of the background and of primitives, each of which changes evenly.
+    fn gradients(&self, rect: IntRect, locals: &[Local<'_>]) -> Vec<Gradient> {
+        let of = |local: &Local<'_>| local.draw.paint.gradient((rect.x0, rect.y0));
+        std::iter::once(Gradient::constant(self.background)).chain(locals.iter().map(of)).collect()
     }
 
     /// The colours of the background and of primitives that have but one.
