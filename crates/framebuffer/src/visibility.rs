@@ -2,6 +2,7 @@ use crate::Palette;
 #[cfg(feature = "std")]
 use crate::level::Best;
 use crate::samples::{mean, mean_of, mean4};
+use crate::stretch::fill_keys;
 use alloc::vec::Vec;
 use scumble_pixel::Premul;
 use squares::{Rows, SIDE};
@@ -128,7 +129,7 @@ impl Visibility {
         }
         let key = key.min(Self::MAX_KEY);
         for row in y..bottom {
-            fill(&mut self.keys[row * self.width..][x..right], key);
+            fill_keys(&mut self.keys[row * self.width..][x..right], key);
         }
     }
 
@@ -139,7 +140,7 @@ impl Visibility {
         let right = x.saturating_add(len as usize).min(self.width);
         if x < right && y < self.height {
             let start = y * self.width;
-            fill(&mut self.keys[start + x..start + right], key.min(Self::MAX_KEY));
+            fill_keys(&mut self.keys[start + x..start + right], key.min(Self::MAX_KEY));
         }
     }
 
@@ -338,27 +339,6 @@ impl Visibility {
 fn mixed_bits(keys: &[u32], room: usize) -> u64 {
     let bits = (0..).zip(keys).map(|(i, &key)| u64::from(key == MIXED) << i);
     bits.fold(0, |all, bit| all | bit) & u64::MAX >> (64 - room.min(64))
-}
-
-/// Writes a key all over a run. Runs are short: two writes that overlap beat a loop over what is
-/// left after whole vectors.
-#[inline(always)]
-fn fill(run: &mut [u32], key: u32) {
-    if let Some(last) = run.last_chunk_mut() {
-        *last = [key; 8];
-        for chunk in run.as_chunks_mut().0 {
-            *chunk = [key; 8];
-        }
-    } else if let Some(last) = run.last_chunk_mut() {
-        *last = [key; 4];
-        if let Some(first) = run.first_chunk_mut() {
-            *first = [key; 4];
-        }
-    } else {
-        for seen in run {
-            *seen = key;
-        }
-    }
 }
 
 mod gradients;

@@ -53,6 +53,8 @@ pub(crate) enum Effect {
     Ramps,
     /// The primitive is seen there, and nothing through it.
     Hides,
+    /// One colour is laid over all or a part of each pixel.
+    Inlays,
     /// Anything else.
     Blends,
 }
@@ -286,8 +288,10 @@ impl<'a> Planner<'a> {
             return;
         }
         let effect = match &paint {
-            _ if self.layer != 0 || !paint.is_opaque() => Effect::Blends,
+            _ if self.layer != 0 => Effect::Blends,
+            Paint::Solid(_) if self.settings.antialias == Antialias::Area => Effect::Inlays,
             _ if self.settings.antialias == Antialias::Area => Effect::Blends,
+            _ if !paint.is_opaque() => Effect::Blends,
             Paint::Solid(_) => Effect::Flat,
             _ if self.settings.per_sample() => Effect::Blends,
             Paint::Gouraud(ramp) if ramp.plane().is_some() => Effect::Ramps,
