@@ -118,8 +118,9 @@ fn inlay_parts_by(
     palette: &Palette,
 ) {
     for ((key, pixel), &part) in keys.iter_mut().zip(sums).zip(parts) {
-        // As in `blend_parts_by`, over what is there.
-        let (above, under) = (color.0, if *key == SUM { *pixel } else { palette.color(*key) }.0);
+        // As in `blend_parts_by`, over what is there: a choice of where to look, and not a branch.
+        let known = palette.color_at(*key);
+        let (above, under) = (color.0, (if *key == SUM { &*pixel } else { known }).0);
         let keep = 1.0 - above[3] * part;
         let mut sum = [0.0; 4];
         for i in 0..4 {

@@ -1,5 +1,6 @@
 use crate::plane::{Plane, clamp};
 use crate::{DVec2, DVec3, GeometryError, Interpolator};
+use alloc::boxed::Box;
 
 /// An attribute of N numbers over a projected triangle, such as a colour, made to be filled in row
 /// by row in `f32`.
@@ -19,10 +20,21 @@ use crate::{DVec2, DVec3, GeometryError, Interpolator};
 /// ```
 #[derive(Debug, Clone)]
 pub struct Ramp<const N: usize> {
+    kind: Kind<N>,
+}
+
+#[derive(Debug, Clone)]
+enum Kind<const N: usize> {
+    /// Without perspective (and near, and not too steep): quick to evaluate.
+    Plane(Plane<N>),
+    /// Elsewhere, since it is large and rare.
+    Other(Box<Other<N>>),
+}
+
+#[derive(Debug, Clone)]
+struct Other<const N: usize> {
     interpolator: Interpolator,
     values: [[f64; N]; 3],
-    /// Without perspective (near, and not too steep), the same in a form that is quick to evaluate.
-    plane: Option<Plane<N>>,
     low: [f32; N],
     high: [f32; N],
 }
@@ -52,21 +64,27 @@ impl<const N: usize> Ramp<N> {
             let (right, below) = (slope(right), slope(below));
             Plane { origin, here: here.map(|v| v as f32), right, below, low, high }
         });
-        let plane = plane.filter(Plane::is_tame);
-        Ok(Self { interpolator, values, plane, low, high })
+        let other = || Kind::Other(Box::new(Other { interpolator, values, low, high }));
+        Ok(Self { kind: plane.filter(Plane::is_tame).map_or_else(other, Kind::Plane) })
     }
 
     /// The least that each component can be.
     #[must_use]
     pub fn low(&self) -> [f32; N] {
-        self.low
+        match &self.kind {
+            Kind::Plane(plane) => plane.low,
+            Kind::Other(other) => other.low,
+        }
     }
 
     /// The same values, pixel by pixel: without perspective, less than 2²⁹ pixels from the origin, and
     /// not so steep that a sum could overflow.
     #[must_use]
     pub fn plane(&self) -> Option<&Plane<N>> {
-        self.plane.as_ref()
+        match &self.kind {
+            Kind::Plane(plane) => Some(plane),
+            Kind::Other(_) => None,
+        }
     }
 
     /// The value at one position.
@@ -79,19 +97,25 @@ impl<const N: usize> Ramp<N> {
 
     /// What `make` makes of the values at `start`, `start` + (1, 0), and so on.
     pub fn fill<T>(&self, start: DVec2, out: &mut [T], make: impl Fn([f32; N]) -> T) {
-        let Some(plane) = &self.plane else {
-            for (i, out) in out.iter_mut().enumerate() {
-                let p = DVec2::new(start.x + i as f64, start.y);
-                let value = self.interpolator.interpolate(p, &self.values);
-                *out = make(clamp(value.map(|v| v as f32), &self.low, &self.high));
-            }
-            return;
+        let plane = match &self.kind {
+            Kind::Plane(plane) => plane,
+            Kind::Other(other) => return other.fill(start, out, make),
         };
         let left = plane.left(start.y);
         let mut column = start.x;
         for out in out {
             *out = make(plane.along(left, column));
             column += 1.0;
+        }
+    }
+}
+
+impl<const N: usize> Other<N> {
+    fn fill<T>(&self, start: DVec2, out: &mut [T], make: impl Fn([f32; N]) -> T) {
+        for (i, out) in out.iter_mut().enumerate() {
+            let p = DVec2::new(start.x + i as f64, start.y);
+            let value = self.interpolator.interpolate(p, &self.values);
+            *out = make(clamp(value.map(|v| v as f32), &self.low, &self.high));
         }
     }
 }

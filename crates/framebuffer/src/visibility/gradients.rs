@@ -5,7 +5,7 @@ use super::{GROUP, Visibility, mixed_bits};
 use crate::Gradient;
 use crate::samples::{mean, mean4};
 #[cfg(feature = "std")]
-use fearless_simd::{Simd, dispatch, f32x16, i32x16, prelude::*, u32x16, u64x8};
+use fearless_simd::{Simd, dispatch, f32x4, f32x16, i32x16, prelude::*, u32x16, u64x8};
 use scumble_pixel::{Premul, WorkingSpace};
 
 /// Pixels that are looked at together: one for each bit of a word.
@@ -46,6 +46,9 @@ trait Stretches: Copy {
     /// The pixels from column `x` of the tile on, as many as the codes without [`LANES`] at the end,
     /// where anything may be written.
     fn encode(self, row: Row<'_>, key: u32, x: u32, codes: &mut [[u8; 4]]);
+
+    /// The mean of four keys' colours in column `x` of the tile.
+    fn mean(self, row: Row<'_>, keys: [u32; GROUP], x: u32) -> Premul;
 }
 
 impl Visibility {
@@ -91,7 +94,7 @@ impl Visibility {
                 by.encode(row, keys[x], (first + x) as u32, &mut codes[x..end + LANES]);
             }
             if mixed != 0 {
-                self.encode_mixed(row, (start + first, first), mixed, &mut codes);
+                self.encode_mixed(row, by, (start + first, first), mixed, &mut codes);
             }
             out[..len].copy_from_slice(&codes[..len]);
         }
@@ -102,6 +105,7 @@ impl Visibility {
     fn encode_mixed(
         &self,
         row: Row<'_>,
+        by: impl Stretches,
         (start, first): (usize, usize),
         mut mixed: u64,
         codes: &mut Codes,
@@ -114,8 +118,7 @@ impl Visibility {
             rest &= rest - 1;
             let (i, x) = (start + place, (first + place) as u32);
             colors[count] = if self.groups == 1 && self.samples == GROUP {
-                let [a, b, c, d] = self.mixed[i];
-                mean4([row.color(a, x), row.color(b, x), row.color(c, x), row.color(d, x)])
+                by.mean(row, self.mixed[i], x)
             } else {
                 let keys = self.samples_of(i);
                 for (sample, &key) in samples.iter_mut().zip(keys) {
@@ -152,6 +155,10 @@ impl Stretches for Plain {
             *color = row.color(key, x);
         }
         row.space.export_row(&colors[..len], &mut codes[..len]);
+    }
+
+    fn mean(self, row: Row<'_>, [a, b, c, d]: [u32; GROUP], x: u32) -> Premul {
+        mean4([row.color(a, x), row.color(b, x), row.color(c, x), row.color(d, x)])
     }
 }
 
@@ -196,6 +203,33 @@ impl<S: Simd> Stretches for Vectors<S> {
             columns += LANES as i32;
             at += LANES;
         }
+    }
+
+    #[inline(always)]
+    fn mean(self, row: Row<'_>, [a, b, c, d]: [u32; GROUP], x: u32) -> Premul {
+        let of = Self::color;
+        let first = of(self, row, a, x);
+        let (b, c, d) = (of(self, row, b, x), of(self, row, c, x), of(self, row, d, x));
+        // As `mean4`: the first, and the mean of the differences, of which its own is nothing.
+        let zero = f32x4::splat(self.0, 0.0);
+        let (b, c, d) = (zero + (b - first), zero + (c - first), zero + (d - first));
+        Premul((first + (b + (c + d)) * 0.25).to_array())
+    }
+}
+
+#[cfg(feature = "std")]
+impl<S: Simd> Vectors<S> {
+    /// [`Gradient::at`] for a key.
+    #[inline(always)]
+    fn color(self, row: Row<'_>, key: u32, x: u32) -> f32x4<S> {
+        let gradient = row.gradient(key);
+        let columns = f32x4::splat(self.0, (x as i32).wrapping_sub(gradient.column) as f32);
+        let rows = f32x4::splat(self.0, (row.y as i32).wrapping_sub(gradient.row) as f32);
+        let here = f32x4::load_array(self.0, gradient.here);
+        let left = here + f32x4::load_array(self.0, gradient.below) * rows;
+        let value = left + f32x4::load_array(self.0, gradient.right) * columns;
+        let low = f32x4::load_array(self.0, gradient.low);
+        value.max(low).min(f32x4::load_array(self.0, gradient.high))
     }
 }
 
