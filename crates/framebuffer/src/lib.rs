@@ -15,7 +15,8 @@
 //!   size, nor on what its other pixels hold.
 //!
 //! Where all that is drawn is opaque, [`Visibility`] keeps what is seen instead of its colour: four
-//! bytes a sample in place of sixteen, and each colour is asked for once, at the end.
+//! bytes a sample in place of sixteen, and each colour is asked for once, at the end. [`Inlay`] does as
+//! much for shapes of one colour that are antialiased one by one.
 //!
 //! [`Exposure`] averages whole frames, row by row: motion blur.
 //!
@@ -58,6 +59,8 @@ extern crate alloc;
 
 mod encode;
 mod exposure;
+mod gradient;
+mod inlay;
 mod level;
 mod palette;
 mod samples;
@@ -67,6 +70,8 @@ mod visibility;
 
 pub use encode::{encode_row, encode_row_dithered, encode_row16};
 pub use exposure::Exposure;
+pub use gradient::Gradient;
+pub use inlay::Inlay;
 pub use palette::Palette;
 pub use tile::Tile;
-pub use visibility::{PixelColors, Seen, Visibility};
+pub use visibility::{Seen, Visibility};

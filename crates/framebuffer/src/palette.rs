@@ -44,7 +44,13 @@ impl Palette {
     /// The colour of a key.
     #[inline(always)]
     pub(crate) fn color(&self, key: u32) -> Premul {
-        self.colors[(key as usize).min(self.colors.len() - 1)]
+        *self.color_at(key)
+    }
+
+    /// Where the colour of a key is.
+    #[inline(always)]
+    pub(crate) fn color_at(&self, key: u32) -> &Premul {
+        &self.colors[(key as usize).min(self.colors.len() - 1)]
     }
 
     /// The encoding of a key.

@@ -1,5 +1,7 @@
 //! Colours over stretches of uniform pixels.
 
+use crate::Palette;
+use crate::inlay::SUM;
 use crate::level::Best;
 use scumble_pixel::Premul;
 
@@ -41,6 +43,38 @@ pub(crate) fn blend_parts(best: Best, below: &mut [Premul], parts: &[f32], color
     by_best!(best, below.len(), blend_parts_by(below, parts, color))
 }
 
+/// Parts of one colour over as many pixels of an [`Inlay`](crate::Inlay): keys and sums.
+pub(crate) fn inlay_parts(
+    best: Best,
+    (keys, sums): (&mut [u32], &mut [Premul]),
+    parts: &[f32],
+    color: Premul,
+    palette: &Palette,
+) {
+    by_best!(best, keys.len(), inlay_parts_by((keys, sums), parts, color, palette))
+}
+
+/// Writes a key all over a run. Runs are short: two writes that overlap beat a loop over what is
+/// left after whole vectors.
+#[inline(always)]
+pub(crate) fn fill_keys(run: &mut [u32], key: u32) {
+    if let Some(last) = run.last_chunk_mut() {
+        *last = [key; 8];
+        for chunk in run.as_chunks_mut().0 {
+            *chunk = [key; 8];
+        }
+    } else if let Some(last) = run.last_chunk_mut() {
+        *last = [key; 4];
+        if let Some(first) = run.first_chunk_mut() {
+            *first = [key; 4];
+        }
+    } else {
+        for seen in run {
+            *seen = key;
+        }
+    }
+}
+
 #[inline(always)]
 fn fill_by(below: &mut [Premul], color: Premul) {
     let (lines, rest) = below.as_chunks_mut::<TOGETHER>();
@@ -73,6 +107,26 @@ fn blend_parts_by(below: &mut [Premul], parts: &[f32], color: Premul) {
             sum[i] = above[i] * part + keep * under[i];
         }
         pixel.0 = sum;
+    }
+}
+
+#[inline(always)]
+fn inlay_parts_by(
+    (keys, sums): (&mut [u32], &mut [Premul]),
+    parts: &[f32],
+    color: Premul,
+    palette: &Palette,
+) {
+    for ((key, pixel), &part) in keys.iter_mut().zip(sums).zip(parts) {
+        // As in `blend_parts_by`, over what is there: a choice of where to look, and not a branch.
+        let known = palette.color_at(*key);
+        let (above, under) = (color.0, (if *key == SUM { &*pixel } else { known }).0);
+        let keep = 1.0 - above[3] * part;
+        let mut sum = [0.0; 4];
+        for i in 0..4 {
+            sum[i] = above[i] * part + keep * under[i];
+        }
+        (*key, pixel.0) = (SUM, sum);
     }
 }
 

@@ -2,6 +2,7 @@ use crate::Palette;
 #[cfg(feature = "std")]
 use crate::level::Best;
 use crate::samples::{mean, mean_of, mean4};
+use crate::stretch::fill_keys;
 use alloc::vec::Vec;
 use scumble_pixel::Premul;
 use squares::{Rows, SIDE};
@@ -42,13 +43,6 @@ pub struct Visibility {
     groups: usize,
     #[cfg(feature = "std")]
     level: Best,
-}
-
-/// The colours of keys in a row, for [`Visibility::shade_pixels`].
-pub trait PixelColors {
-    /// The colour of a key in the pixel of column `x`, a whole number. It may be asked for a key that
-    /// was never drawn, whose colour goes nowhere. To be inlined always.
-    fn at(&self, key: u32, x: f64) -> Premul;
 }
 
 /// What is seen in some pixels of a row.
@@ -135,7 +129,7 @@ impl Visibility {
         }
         let key = key.min(Self::MAX_KEY);
         for row in y..bottom {
-            fill(&mut self.keys[row * self.width..][x..right], key);
+            fill_keys(&mut self.keys[row * self.width..][x..right], key);
         }
     }
 
@@ -146,7 +140,7 @@ impl Visibility {
         let right = x.saturating_add(len as usize).min(self.width);
         if x < right && y < self.height {
             let start = y * self.width;
-            fill(&mut self.keys[start + x..start + right], key.min(Self::MAX_KEY));
+            fill_keys(&mut self.keys[start + x..start + right], key.min(Self::MAX_KEY));
         }
     }
 
@@ -321,57 +315,6 @@ impl Visibility {
         }
     }
 
-    /// [`shade_row`](Self::shade_row) for colours that are quick to find: they are asked for pixel by
-    /// pixel, and for each sample of a mixed one, so that nothing hangs on how long a stretch is.
-    #[inline]
-    pub fn shade_pixels(&self, y: u32, out: &mut [Premul], colors: &impl PixelColors) {
-        #[cfg(feature = "std")]
-        fearless_simd::dispatch!(self.level.0, _simd => self.shade_pixels_by(y, out, colors));
-        #[cfg(not(feature = "std"))]
-        self.shade_pixels_by(y, out, colors);
-    }
-
-    // Inlined, so that it runs on the instructions of its caller.
-    #[inline(always)]
-    fn shade_pixels_by(&self, y: u32, out: &mut [Premul], colors: &impl PixelColors) {
-        let (start, keys) = self.keys(y);
-        let len = keys.len().min(out.len());
-        let ((eights, rest), (eight_outs, rest_outs)) =
-            (keys[..len].as_chunks::<SIDE>(), out[..len].as_chunks_mut::<SIDE>());
-        let mut x = 0.0;
-        for (keys, outs) in eights.iter().zip(eight_outs) {
-            for (c, (&key, out)) in keys.iter().zip(outs).enumerate() {
-                *out = colors.at(key, x + c as f64);
-            }
-            x += SIDE as f64;
-        }
-        for (&key, out) in rest.iter().zip(rest_outs) {
-            *out = colors.at(key, x);
-            x += 1.0;
-        }
-        if self.groups == 0 {
-            return;
-        }
-        for (first, (keys, out)) in (0..).step_by(64).zip(keys.chunks(64).zip(out.chunks_mut(64))) {
-            let mut mixed = mixed_bits(keys, out.len());
-            while mixed != 0 {
-                let place = mixed.trailing_zeros() as usize;
-                let pixel = start + first + place;
-                let x = (first + place) as f64;
-                out[place] = if self.groups == 1 && self.samples == GROUP {
-                    let [a, b, c, d] = self.mixed[pixel];
-                    let color =
-                        [colors.at(a, x), colors.at(b, x), colors.at(c, x), colors.at(d, x)];
-                    mean4(color)
-                } else {
-                    let keys = self.samples_of(pixel);
-                    mean_of(keys.len(), |s| colors.at(keys[s], x))
-                };
-                mixed &= mixed - 1;
-            }
-        }
-    }
-
     /// What is seen in a row, from left to right; nothing if there is no such row.
     pub fn row(&self, y: u32) -> impl Iterator<Item = Seen<'_>> {
         let (start, row) = self.keys(y);
@@ -398,27 +341,7 @@ fn mixed_bits(keys: &[u32], room: usize) -> u64 {
     bits.fold(0, |all, bit| all | bit) & u64::MAX >> (64 - room.min(64))
 }
 
-/// Writes a key all over a run. Runs are short: two writes that overlap beat a loop over what is
-/// left after whole vectors.
-#[inline(always)]
-fn fill(run: &mut [u32], key: u32) {
-    if let Some(last) = run.last_chunk_mut() {
-        *last = [key; 8];
-        for chunk in run.as_chunks_mut().0 {
-            *chunk = [key; 8];
-        }
-    } else if let Some(last) = run.last_chunk_mut() {
-        *last = [key; 4];
-        if let Some(first) = run.first_chunk_mut() {
-            *first = [key; 4];
-        }
-    } else {
-        for seen in run {
-            *seen = key;
-        }
-    }
-}
-
+mod gradients;
 mod squares;
 #[cfg(test)]
 mod tests;

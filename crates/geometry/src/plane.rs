@@ -15,7 +15,7 @@ use crate::DVec2;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane<const N: usize> {
-    /// Where it counts from.
+    /// Where it counts from: the centre of a pixel.
     pub(crate) origin: DVec2,
     /// The value there.
     pub(crate) here: [f32; N],
@@ -27,12 +27,28 @@ pub struct Plane<const N: usize> {
     pub(crate) high: [f32; N],
 }
 
+/// Times the distance of any two pixels it is far below the largest `f32`.
+const STEEPEST: f32 = 1e20;
+
 impl<const N: usize> Plane<N> {
     /// The same everywhere. Numbers should be finite.
     #[must_use]
     pub const fn constant(value: [f32; N]) -> Self {
         let none = [0.0; N];
-        Self { origin: DVec2::ZERO, here: value, right: none, below: none, low: value, high: value }
+        Self {
+            origin: DVec2::splat(0.5),
+            here: value,
+            right: none,
+            below: none,
+            low: value,
+            high: value,
+        }
+    }
+
+    /// Whether no sum overflows over all pixels there can be.
+    pub(crate) fn is_tame(&self) -> bool {
+        let mut all = self.here.iter().chain(&self.right).chain(&self.below);
+        all.all(|v| v.abs() < STEEPEST)
     }
 
     /// The value at a position: the bits of [`Ramp::at`](crate::Ramp::at).
@@ -40,6 +56,63 @@ impl<const N: usize> Plane<N> {
     #[inline(always)]
     pub fn at(&self, p: DVec2) -> [f32; N] {
         self.along(self.left(p.y), p.x)
+    }
+
+    /// The pixel from which it is counted: `here` is at its centre. Over other pixels' centres the value
+    /// is `here` + `below` × rows + `right` × columns, in this order, in `f32`, and then held to the
+    /// range.
+    ///
+    /// ```
+    /// use scumble_geometry::{DVec2, DVec3, Ramp};
+    /// # let corners = [DVec3::new(0.0, 0.0, 1.0), DVec3::new(4.0, 0.0, 1.0), DVec3::new(0.0, 4.0, 1.0)];
+    /// let ramp = Ramp::new(corners, [[0.0], [1.0], [0.0]])?;
+    /// let plane = ramp.plane().ok_or("without perspective there is one")?;
+    /// let (x, y) = plane.pixel();
+    /// let ([here], [below], [right]) = (plane.here(), plane.below(), plane.right());
+    /// let value = here + below * (3 - y) as f32 + right * (1 - x) as f32;
+    /// assert_eq!(plane.at(DVec2::new(1.5, 3.5)), [value.max(plane.low()[0]).min(plane.high()[0])]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    #[inline]
+    pub fn pixel(&self) -> (i32, i32) {
+        // Whole numbers and a half.
+        ((self.origin.x - 0.5) as i32, (self.origin.y - 0.5) as i32)
+    }
+
+    /// The value at the centre of that pixel.
+    #[must_use]
+    #[inline]
+    pub fn here(&self) -> [f32; N] {
+        self.here
+    }
+
+    /// Its change from a pixel to the one below.
+    #[must_use]
+    #[inline]
+    pub fn below(&self) -> [f32; N] {
+        self.below
+    }
+
+    /// Its change from a pixel to the one on the right.
+    #[must_use]
+    #[inline(always)]
+    pub fn right(&self) -> [f32; N] {
+        self.right
+    }
+
+    /// The least of each number.
+    #[must_use]
+    #[inline(always)]
+    pub fn low(&self) -> [f32; N] {
+        self.low
+    }
+
+    /// The most of each number.
+    #[must_use]
+    #[inline(always)]
+    pub fn high(&self) -> [f32; N] {
+        self.high
     }
 
     /// What a row begins from.

@@ -1,5 +1,6 @@
 use crate::plane::{Plane, clamp};
 use crate::{DVec2, DVec3, GeometryError, Interpolator};
+use alloc::boxed::Box;
 
 /// An attribute of N numbers over a projected triangle, such as a colour, made to be filled in row
 /// by row in `f32`.
@@ -19,13 +20,27 @@ use crate::{DVec2, DVec3, GeometryError, Interpolator};
 /// ```
 #[derive(Debug, Clone)]
 pub struct Ramp<const N: usize> {
+    kind: Kind<N>,
+}
+
+#[derive(Debug, Clone)]
+enum Kind<const N: usize> {
+    /// Without perspective (and near, and not too steep): quick to evaluate.
+    Plane(Plane<N>),
+    /// Elsewhere, since it is large and rare.
+    Other(Box<Other<N>>),
+}
+
+#[derive(Debug, Clone)]
+struct Other<const N: usize> {
     interpolator: Interpolator,
     values: [[f64; N]; 3],
-    /// Without perspective, the same in a form that is quick to evaluate.
-    plane: Option<Plane<N>>,
     low: [f32; N],
     high: [f32; N],
 }
+
+/// Pixels up to here from the origin are whole numbers of pixels apart that fit an `i32`.
+const FARTHEST: f64 = (1 << 29) as f64;
 
 impl<const N: usize> Ramp<N> {
     /// Values at three vertices in homogeneous screen coordinates (X, Y, w), as for
@@ -39,27 +54,37 @@ impl<const N: usize> Ramp<N> {
         let low = core::array::from_fn(|i| a[i].min(b[i]).min(c[i]));
         let high = core::array::from_fn(|i| a[i].max(b[i]).max(c[i]));
         let values = values.map(|value| value.map(f64::from));
-        let plane = interpolator.is_affine().then(|| {
-            let origin = positions[0].truncate() / positions[0].z;
+        // The centre of a pixel, so that from others it is whole numbers away.
+        let origin = (positions[0].truncate() / positions[0].z).floor() + 0.5;
+        let is_near = origin.abs().max_element() <= FARTHEST;
+        let plane = (is_near && interpolator.is_affine()).then(|| {
             let at = |p| interpolator.interpolate(p, &values);
             let (here, right, below) = (at(origin), at(origin + DVec2::X), at(origin + DVec2::Y));
             let slope = |to: [f64; N]| core::array::from_fn(|i| (to[i] - here[i]) as f32);
             let (right, below) = (slope(right), slope(below));
             Plane { origin, here: here.map(|v| v as f32), right, below, low, high }
         });
-        Ok(Self { interpolator, values, plane, low, high })
+        let other = || Kind::Other(Box::new(Other { interpolator, values, low, high }));
+        Ok(Self { kind: plane.filter(Plane::is_tame).map_or_else(other, Kind::Plane) })
     }
 
     /// The least that each component can be.
     #[must_use]
     pub fn low(&self) -> [f32; N] {
-        self.low
+        match &self.kind {
+            Kind::Plane(plane) => plane.low,
+            Kind::Other(other) => other.low,
+        }
     }
 
-    /// Without perspective: the same values, pixel by pixel.
+    /// The same values, pixel by pixel: without perspective, less than 2²⁹ pixels from the origin, and
+    /// not so steep that a sum could overflow.
     #[must_use]
     pub fn plane(&self) -> Option<&Plane<N>> {
-        self.plane.as_ref()
+        match &self.kind {
+            Kind::Plane(plane) => Some(plane),
+            Kind::Other(_) => None,
+        }
     }
 
     /// The value at one position.
@@ -72,19 +97,25 @@ impl<const N: usize> Ramp<N> {
 
     /// What `make` makes of the values at `start`, `start` + (1, 0), and so on.
     pub fn fill<T>(&self, start: DVec2, out: &mut [T], make: impl Fn([f32; N]) -> T) {
-        let Some(plane) = &self.plane else {
-            for (i, out) in out.iter_mut().enumerate() {
-                let p = DVec2::new(start.x + i as f64, start.y);
-                let value = self.interpolator.interpolate(p, &self.values);
-                *out = make(clamp(value.map(|v| v as f32), &self.low, &self.high));
-            }
-            return;
+        let plane = match &self.kind {
+            Kind::Plane(plane) => plane,
+            Kind::Other(other) => return other.fill(start, out, make),
         };
         let left = plane.left(start.y);
         let mut column = start.x;
         for out in out {
             *out = make(plane.along(left, column));
             column += 1.0;
+        }
+    }
+}
+
+impl<const N: usize> Other<N> {
+    fn fill<T>(&self, start: DVec2, out: &mut [T], make: impl Fn([f32; N]) -> T) {
+        for (i, out) in out.iter_mut().enumerate() {
+            let p = DVec2::new(start.x + i as f64, start.y);
+            let value = self.interpolator.interpolate(p, &self.values);
+            *out = make(clamp(value.map(|v| v as f32), &self.low, &self.high));
         }
     }
 }

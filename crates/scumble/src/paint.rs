@@ -2,8 +2,8 @@
 
 use crate::painter::centre;
 use crate::plan::Surface;
-use scumble_framebuffer::PixelColors;
-use scumble_geometry::{DVec2, Homography, IntRect, Matrix2, Plane, Ramp};
+use scumble_framebuffer::Gradient;
+use scumble_geometry::{DVec2, Homography, IntRect, Matrix2, Ramp};
 use scumble_pixel::Premul;
 use scumble_texture::{Footprint, Sampler, Texture};
 
@@ -73,23 +73,6 @@ impl Textured {
     }
 }
 
-/// The colours of a row, each a plane.
-pub(crate) struct RowColors<'a> {
-    /// By key: at least one.
-    pub(crate) planes: &'a [Plane<4>],
-    /// The centre of the first pixel.
-    pub(crate) start: DVec2,
-}
-
-impl PixelColors for RowColors<'_> {
-    #[inline(always)]
-    fn at(&self, key: u32, x: f64) -> Premul {
-        // Not a branch: what keys follow each other nothing could guess.
-        let plane = &self.planes[(key as usize).min(self.planes.len() - 1)];
-        Premul(plane.at(DVec2::new(self.start.x + x, self.start.y)))
-    }
-}
-
 impl Paint {
     /// Whether every pixel is opaque.
     pub(crate) fn is_opaque(&self) -> bool {
@@ -100,12 +83,20 @@ impl Paint {
         }
     }
 
-    /// The colour as a plane; of what is none, nothing.
-    pub(crate) fn plane(&self) -> Plane<4> {
+    /// The colour over the tile whose top left pixel is `origin`, of what has one that changes evenly.
+    pub(crate) fn gradient(&self, origin: (i32, i32)) -> Gradient {
         match self {
-            Self::Solid(color) => Plane::constant(color.0),
-            Self::Gouraud(ramp) => ramp.plane().copied().unwrap_or(Plane::constant([0.0; 4])),
-            Self::Textured(_) => Plane::constant([0.0; 4]),
+            Self::Solid(color) => Gradient::constant(*color),
+            Self::Gouraud(ramp) => match ramp.plane() {
+                Some(plane) => {
+                    let (x, y) = plane.pixel();
+                    let from = (x.wrapping_sub(origin.0), y.wrapping_sub(origin.1));
+                    let [here, right, below] = [plane.here(), plane.right(), plane.below()];
+                    Gradient::new(from, [here, right, below], [plane.low(), plane.high()])
+                }
+                None => Gradient::constant(Premul::TRANSPARENT),
+            },
+            Self::Textured(_) => Gradient::constant(Premul::TRANSPARENT),
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::paint::Paint;
 use crate::tile::Job;
 use scumble_coverage::{AreaSink, SampleMask, SamplePattern, Sink};
-use scumble_framebuffer::{Tile, Visibility};
+use scumble_framebuffer::{Inlay, Palette, Tile, Visibility};
 use scumble_geometry::{DVec2, IntRect};
 use scumble_pixel::Premul;
 
@@ -52,6 +52,56 @@ impl Sink for Stamp<'_> {
     fn parts(&mut self, x: i32, y: i32, rows: &[u32; 8]) {
         let (x, y) = local(self.origin, x, y);
         self.tile.cover_square(x, y, rows, self.key);
+    }
+}
+
+/// Lays one colour over what a primitive covers.
+pub(crate) struct Coat<'a> {
+    pub(crate) tile: &'a mut Inlay,
+    pub(crate) palette: &'a Palette,
+    /// The tile's top left pixel.
+    pub(crate) origin: (i32, i32),
+    /// What stands for the primitive.
+    pub(crate) key: u32,
+}
+
+impl Sink for Coat<'_> {
+    fn block(&mut self, rect: IntRect) {
+        let (x, y) = local(self.origin, rect.x0, rect.y0);
+        self.tile.fill(x, y, rect.width(), rect.height(), self.key, self.palette);
+    }
+
+    fn run(&mut self, y: i32, x0: i32, x1: i32) {
+        Sink::block(self, IntRect { x0, y0: y, x1, y1: y + 1 });
+    }
+
+    /// There is but one sample.
+    fn pixel(&mut self, x: i32, y: i32, _: SampleMask) {
+        Sink::run(self, y, x, x + 1);
+    }
+}
+
+impl AreaSink for Coat<'_> {
+    fn block(&mut self, rect: IntRect) {
+        Sink::block(self, rect);
+    }
+
+    fn run(&mut self, y: i32, x0: i32, x1: i32) {
+        Sink::run(self, y, x0, x1);
+    }
+
+    fn span(&mut self, y: i32, x0: i32, x1: i32, area: f32) {
+        let place = local(self.origin, x0, y);
+        self.tile.blend_area(place, x1.abs_diff(x0), area, self.key, self.palette);
+    }
+
+    fn row(&mut self, y: i32, x0: i32, areas: &[f32]) {
+        let (x, y) = local(self.origin, x0, y);
+        self.tile.blend_areas(x, y, areas, self.key, self.palette);
+    }
+
+    fn pixel(&mut self, x: i32, y: i32, area: f32) {
+        self.row(y, x, &[area]);
     }
 }
 

@@ -53,6 +53,8 @@ pub(crate) enum Effect {
     Ramps,
     /// The primitive is seen there, and nothing through it.
     Hides,
+    /// One colour is laid over all or a part of each pixel.
+    Inlays,
     /// Anything else.
     Blends,
 }
@@ -285,9 +287,14 @@ impl<'a> Planner<'a> {
         if bounds.is_empty() {
             return;
         }
+        let area = self.settings.antialias == Antialias::Area;
+        let is_triangle = matches!(&form, Form::Shape(shape) if shape.edge_count() == 3);
         let effect = match &paint {
-            _ if self.layer != 0 || !paint.is_opaque() => Effect::Blends,
-            _ if self.settings.antialias == Antialias::Area => Effect::Blends,
+            _ if self.layer != 0 => Effect::Blends,
+            // Small triangles fill hardly a pixel whole, and what they sum is quicker without.
+            Paint::Solid(_) if area && !is_triangle => Effect::Inlays,
+            _ if area => Effect::Blends,
+            _ if !paint.is_opaque() => Effect::Blends,
             Paint::Solid(_) => Effect::Flat,
             _ if self.settings.per_sample() => Effect::Blends,
             Paint::Gouraud(ramp) if ramp.plane().is_some() => Effect::Ramps,

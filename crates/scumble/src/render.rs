@@ -3,7 +3,7 @@ use crate::rows::Pool;
 use crate::schedule;
 use crate::tile::Job;
 use crate::{Background, Control, ImageSink, RenderError, Settings, Sink, Textures};
-use scumble_framebuffer::{Tile, Visibility};
+use scumble_framebuffer::{Inlay, Tile, Visibility};
 use scumble_geometry::{IntRect, TileGrid};
 use scumble_pixel::{Image, Premul};
 use scumble_scene::Scene;
@@ -150,7 +150,7 @@ fn check_memory<E>(
 ) -> Result<u64, RenderError<E>> {
     let (side, samples) = (settings.tile_size, settings.samples());
     let seen = Visibility::max_bytes(side, side, samples);
-    let tile = seen + Tile::max_bytes(side, side, samples);
+    let tile = seen + Inlay::max_bytes(side, side) + Tile::max_bytes(side, side, samples);
     let depth = plan.layers.iter().map(|layer| layer.depth).max().unwrap_or(1);
     let tiles = tile.saturating_mul(depth).saturating_mul(threads as u64);
     let rows = schedule::buffered_rows(grid, threads) as u64 * u64::from(grid.area().width()) * 4;

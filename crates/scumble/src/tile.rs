@@ -1,13 +1,13 @@
 //! One tile: replays its primitives in order, then resolves.
 
-use crate::paint::{Paint, RowColors};
-use crate::painter::{Painter, Stamp, centre};
+use crate::paint::Paint;
+use crate::painter::{Coat, Painter, Stamp, centre};
 use crate::plan::{Draw, Effect, Form, Plan};
 use crate::strips::Wanted;
 use crate::{Antialias, Settings};
-use scumble_coverage::{AreaStrip, Cover, Scratch, Sink, hairline};
-use scumble_framebuffer::{Palette, Tile, Visibility, encode_row};
-use scumble_geometry::{IntRect, Plane};
+use scumble_coverage::{AreaSink, AreaStrip, Cover, Scratch, Sink, hairline};
+use scumble_framebuffer::{Gradient, Inlay, Palette, Tile, Visibility, encode_row};
+use scumble_geometry::IntRect;
 use scumble_pixel::Premul;
 
 /// What a worker keeps from tile to tile, so that nothing is allocated in the steady state.
@@ -16,6 +16,8 @@ pub(crate) struct Workspace {
     pub(crate) scratch: Scratch,
     /// What is seen, while all that is drawn is opaque.
     seen: Visibility,
+    /// While all are single colours, each antialiased by itself.
+    inlay: Inlay,
     /// The canvas, then one tile for each open layer.
     stack: Vec<Tile>,
     colors: Vec<Premul>,
@@ -64,17 +66,21 @@ impl Job<'_> {
         };
         let locals: Vec<Local> = list.iter().zip(self.plan.draws(list)).map(here).collect();
         let effect = effect(&locals, rect);
-        let visible = effect != Effect::Blends;
+        let palette = match effect {
+            Effect::Flat | Effect::Inlays => self.palette(&locals),
+            _ => Palette::new(self.settings.space),
+        };
         let mut all = work.lists.pop().unwrap_or_default();
         all.clear();
         all.extend(0..locals.len() as u32);
-        let mut replay = Replay { job: self, work, rect, locals, visible, layers: vec![0] };
+        let palette = &palette;
+        let mut replay = Replay { job: self, work, rect, locals, effect, palette, layers: vec![0] };
         replay.open(0, self.background);
         replay.part(rect, &all);
         replay.enter(0);
         let Replay { work, locals, .. } = replay;
         work.lists.push(all);
-        self.finish(work, rect, effect, &locals, rows);
+        self.finish(work, rect, (effect, palette), &locals, rows);
     }
 
     /// Renders pixels that nothing touches.
@@ -88,26 +94,29 @@ impl Job<'_> {
         &self,
         work: &mut Workspace,
         rect: IntRect,
-        effect: Effect,
+        (effect, palette): (Effect, &Palette),
         locals: &[Local<'_>],
         rows: &mut [&mut [[u8; 4]]],
     ) {
-        let Workspace { seen, stack, colors, .. } = work;
+        let Workspace { seen, inlay, stack, colors, .. } = work;
         let space = self.settings.space;
-        let palette =
-            if effect == Effect::Flat { self.palette(locals) } else { Palette::new(space) };
-        let planes = if effect == Effect::Ramps { self.planes(locals) } else { Vec::new() };
+        let gradients =
+            if effect == Effect::Ramps { self.gradients(rect, locals) } else { Vec::new() };
         colors.clear();
         colors.resize(rect.width() as usize, Premul::TRANSPARENT);
         for (y, row) in (0..).zip(rows) {
             match effect {
                 Effect::Flat => {
-                    seen.encode_row(y, &palette, row);
+                    seen.encode_row(y, palette, row);
+                    continue;
+                }
+                Effect::Inlays => {
+                    inlay.encode_row(y, palette, row);
                     continue;
                 }
                 Effect::Ramps => {
-                    let start = centre(rect.x0, rect.y0 + y as i32);
-                    seen.shade_pixels(y, colors, &RowColors { planes: &planes, start });
+                    seen.encode_gradients(y, &gradients, space, row);
+                    continue;
                 }
                 Effect::Hides => seen.shade_row(y, colors, |key, x, out| {
                     let place = centre(rect.x0 + x as i32, rect.y0 + y as i32);
@@ -130,10 +139,10 @@ impl Job<'_> {
         }
     }
 
-    /// The colours of the background and of primitives, each a plane.
-    fn planes(&self, locals: &[Local<'_>]) -> Vec<Plane<4>> {
-        let background = std::iter::once(Plane::constant(self.background.0));
-        background.chain(locals.iter().map(|local| local.draw.paint.plane())).collect()
+    /// The colours of the background and of primitives, each of which changes evenly.
+    fn gradients(&self, rect: IntRect, locals: &[Local<'_>]) -> Vec<Gradient> {
+        let of = |local: &Local<'_>| local.draw.paint.gradient((rect.x0, rect.y0));
+        std::iter::once(Gradient::constant(self.background)).chain(locals.iter().map(of)).collect()
     }
 
     /// The colours of the background and of primitives that have but one.
@@ -207,8 +216,10 @@ struct Replay<'a> {
     rect: IntRect,
     /// The primitives of the tile; lists hold their places here.
     locals: Vec<Local<'a>>,
-    /// Whether [`Workspace::seen`] is drawn on, and not the stack.
-    visible: bool,
+    /// What all of them come to: it tells what is drawn on.
+    effect: Effect,
+    /// The colours of the background and of primitives, where each has but one.
+    palette: &'a Palette,
     /// The open layers, from the canvas to the innermost.
     layers: Vec<u32>,
 }
@@ -218,8 +229,10 @@ impl Replay<'_> {
     fn open(&mut self, depth: usize, color: Premul) {
         let (width, height) = (self.rect.width(), self.rect.height());
         let samples = self.job.settings.samples();
-        if self.visible {
-            return self.work.seen.reset(width, height, samples, BACKGROUND);
+        match self.effect {
+            Effect::Blends => {}
+            Effect::Inlays => return self.work.inlay.reset(width, height, BACKGROUND),
+            _ => return self.work.seen.reset(width, height, samples, BACKGROUND),
         }
         if self.work.stack.len() <= depth {
             self.work.stack.push(Tile::new());
@@ -303,24 +316,38 @@ impl Replay<'_> {
     fn draw(&mut self, index: u32, part: IntRect) {
         let Local { draw, bounds, strip } = self.locals[index as usize];
         let (job, clip, origin) = (self.job, part.intersect(&bounds), (self.rect.x0, self.rect.y0));
-        if self.visible {
+        let key = BACKGROUND + 1 + index;
+        if self.effect == Effect::Inlays {
+            let Workspace { scratch, inlay, .. } = &mut *self.work;
+            let mut coat = Coat { tile: inlay, palette: self.palette, origin, key };
+            return lay(job, (&draw.form, strip), clip, scratch, &mut coat);
+        }
+        if self.effect != Effect::Blends {
             let Workspace { scratch, seen, .. } = &mut *self.work;
-            let mut stamp = Stamp { tile: seen, origin, key: BACKGROUND + 1 + index };
-            return cover(job, &draw.form, clip, scratch, &mut stamp);
+            return cover(job, &draw.form, clip, scratch, &mut Stamp { tile: seen, origin, key });
         }
         self.enter(draw.layer);
         let Workspace { scratch, stack, colors, .. } = &mut *self.work;
         let tile = &mut stack[self.layers.len() - 1];
         let mut painter = Painter { job, paint: &draw.paint, tile, origin, colors };
-        if let Some(strip) = strip {
-            return strip.replay(clip, &mut painter);
+        lay(job, (&draw.form, strip), clip, scratch, &mut painter);
+    }
+}
+
+/// Hands the areas of a primitive to a sink, or its samples.
+fn lay(
+    job: &Job<'_>,
+    (form, strip): (&Form, Option<&AreaStrip>),
+    clip: IntRect,
+    scratch: &mut Scratch,
+    sink: &mut (impl Sink + AreaSink),
+) {
+    match (form, strip) {
+        (_, Some(strip)) => strip.replay(clip, sink),
+        (Form::Shape(shape), None) if job.settings.antialias == Antialias::Area => {
+            shape.rasterize_area(clip, scratch, sink);
         }
-        match &draw.form {
-            Form::Shape(shape) if job.settings.antialias == Antialias::Area => {
-                shape.rasterize_area(clip, scratch, &mut painter);
-            }
-            form => cover(job, form, clip, scratch, &mut painter),
-        }
+        _ => cover(job, form, clip, scratch, sink),
     }
 }
 

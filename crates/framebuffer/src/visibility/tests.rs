@@ -1,5 +1,5 @@
 use super::*;
-use crate::encode_row;
+use crate::{Gradient, encode_row};
 use proptest::prelude::*;
 use scumble_pixel::WorkingSpace;
 use std::{vec, vec::Vec};
@@ -76,17 +76,41 @@ fn samples_of(tile: &Visibility, y: u32, samples: u32) -> Vec<u32> {
 const COLORS: [[f32; 4]; 4] =
     [[0.2, 0.3, 0.7, 1.0], [1.0, 0.0, 0.1, 1.0], [0.9, 0.9, 0.8, 1.0], [0.1, 0.2, 0.3, 0.4]];
 
-struct Colors;
+fn color(key: u32) -> Premul {
+    COLORS.get(key as usize).map_or(Premul::TRANSPARENT, |&c| Premul(c))
+}
 
-impl PixelColors for Colors {
-    fn at(&self, key: u32, _: f64) -> Premul {
-        COLORS.get(key as usize).map_or(Premul::TRANSPARENT, |&c| Premul(c))
-    }
+/// The same colours, each changing over the tile; one of them leaves its range, and one leaves what
+/// can be encoded.
+fn gradients() -> [Gradient; 4] {
+    let right = [[0.01, -0.02, 0.007, 0.0], [0.0; 4], [0.3, -0.3, 0.2, 0.0], [0.01; 4]];
+    let below = [[0.0; 4], [0.02, 0.01, 0.013, 0.0], [-0.1, 0.2, -0.3, 0.0], [0.01; 4]];
+    let mut key = 0;
+    COLORS.map(|here| {
+        let (low, high) = match key {
+            0 => ([0.1, 0.1, 0.1, 1.0], [0.6, 0.7, 0.9, 1.0]),
+            2 => ([-9.0, -9.0, -9.0, 1.0], [9.0, 9.0, 9.0, 1.0]),
+            _ => ([0.0; 4], [1.0; 4]),
+        };
+        let (right, below, at) = (right[key], below[key], key as i32);
+        key += 1;
+        Gradient::new((5 - 7 * at, at - 2), [here, right, below], [low, high])
+    })
+}
+
+/// What encoding gradients is to come to.
+fn by_gradients(tile: &Visibility, y: u32, space: WorkingSpace, room: usize) -> Vec<[u8; 4]> {
+    let mut shaded = vec![Premul::TRANSPARENT; room];
+    tile.shade_row(y, &mut shaded, |key, x, out| {
+        for (color, x) in out.iter_mut().zip((x as u32)..) {
+            *color = gradients()[(key as usize).min(3)].at(x, y);
+        }
+    });
+    shaded.iter().map(|&color| space.export(color)).collect()
 }
 
 /// Shading and encoding are the mean over samples of the definition.
 fn check_colours(tile: &Visibility, naive: &Naive) -> Result<(), TestCaseError> {
-    let color = |key: u32| Colors.at(key, 0.0);
     for space in [WorkingSpace::Srgb, WorkingSpace::Linear] {
         let mut palette = Palette::new(space);
         COLORS.iter().for_each(|&c| palette.push(Premul(c)));
@@ -98,12 +122,12 @@ fn check_colours(tile: &Visibility, naive: &Naive) -> Result<(), TestCaseError> 
             let mut shaded = vec![Premul::TRANSPARENT; naive.width as usize];
             tile.shade_row(y, &mut shaded, |key, _, out| out.fill(color(key)));
             prop_assert_eq!(&shaded, &pixels);
-            shaded.fill(Premul::TRANSPARENT);
-            tile.shade_pixels(y, &mut shaded, &Colors);
-            prop_assert_eq!(&shaded, &pixels);
             let mut codes = vec![[9; 4]; naive.width as usize];
             tile.encode_row(y, &palette, &mut codes);
             let expected: Vec<_> = pixels.iter().map(|&p| space.export(p)).collect();
+            prop_assert_eq!(&codes, &expected);
+            let expected = by_gradients(tile, y, space, codes.len());
+            tile.encode_gradients(y, &gradients(), space, &mut codes);
             prop_assert_eq!(codes, expected);
         }
     }
@@ -204,14 +228,17 @@ fn long_rows_are_encoded_whole() {
     for room in [0, 1, 63, 64, 65, 149, 150, 200] {
         let mut shaded = vec![Premul::TRANSPARENT; room];
         tile.shade_row(0, &mut shaded, |key, _, out| out.fill(Premul(COLORS[key as usize])));
-        let mut by_pixel = vec![Premul::TRANSPARENT; room];
-        tile.shade_pixels(0, &mut by_pixel, &Colors);
-        assert_eq!(by_pixel, shaded);
         let mut expected = vec![[9; 4]; room];
         encode_row(&shaded[..room.min(150)], WorkingSpace::Srgb, &mut expected);
         let mut codes = vec![[9; 4]; room];
         tile.encode_row(0, &palette, &mut codes);
         assert_eq!(codes, expected);
+        let there = room.min(150);
+        codes.fill([9; 4]);
+        tile.encode_gradients(0, &gradients(), WorkingSpace::Srgb, &mut codes);
+        let by_pixel = by_gradients(&tile, 0, WorkingSpace::Srgb, room);
+        assert_eq!(codes[..there], by_pixel[..there]);
+        assert!(codes[there..].iter().all(|&code| code == [9; 4]));
     }
 }
 
