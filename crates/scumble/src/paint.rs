@@ -85,19 +85,15 @@ impl Paint {
 
     /// The colour over the tile whose top left pixel is `origin`, of what has one that changes evenly.
     pub(crate) fn gradient(&self, origin: (i32, i32)) -> Gradient {
-        match self {
-            Self::Solid(color) => Gradient::constant(*color),
-            Self::Gouraud(ramp) => match ramp.plane() {
-                Some(plane) => {
-                    let (x, y) = plane.pixel();
-                    let from = (x.wrapping_sub(origin.0), y.wrapping_sub(origin.1));
-                    let [here, right, below] = [plane.here(), plane.right(), plane.below()];
-                    Gradient::new(from, [here, right, below], [plane.low(), plane.high()])
-                }
-                None => Gradient::constant(Premul::TRANSPARENT),
-            },
-            Self::Textured(_) => Gradient::constant(Premul::TRANSPARENT),
-        }
+        let plane = match self {
+            Self::Solid(color) => return Gradient::constant(*color),
+            Self::Gouraud(ramp) => ramp.plane(),
+            Self::Textured(_) => None,
+        };
+        let Some(p) = plane else { return Gradient::constant(Premul::TRANSPARENT) };
+        let (x, y) = p.pixel();
+        let from = (x.wrapping_sub(origin.0), y.wrapping_sub(origin.1));
+        Gradient::new(from, [p.here(), p.right(), p.below()], [p.low(), p.high()])
     }
 
     /// Whether the centres of all pixels of a rectangle have a colour: whether none lies behind the

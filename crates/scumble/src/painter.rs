@@ -65,29 +65,14 @@ pub(crate) struct Coat<'a> {
     pub(crate) key: u32,
 }
 
-impl Sink for Coat<'_> {
+impl AreaSink for Coat<'_> {
     fn block(&mut self, rect: IntRect) {
         let (x, y) = local(self.origin, rect.x0, rect.y0);
         self.tile.fill(x, y, rect.width(), rect.height(), self.key, self.palette);
     }
 
     fn run(&mut self, y: i32, x0: i32, x1: i32) {
-        Sink::block(self, IntRect { x0, y0: y, x1, y1: y + 1 });
-    }
-
-    /// There is but one sample.
-    fn pixel(&mut self, x: i32, y: i32, _: SampleMask) {
-        Sink::run(self, y, x, x + 1);
-    }
-}
-
-impl AreaSink for Coat<'_> {
-    fn block(&mut self, rect: IntRect) {
-        Sink::block(self, rect);
-    }
-
-    fn run(&mut self, y: i32, x0: i32, x1: i32) {
-        Sink::run(self, y, x0, x1);
+        self.block(IntRect { x0, y0: y, x1, y1: y + 1 });
     }
 
     fn span(&mut self, y: i32, x0: i32, x1: i32, area: f32) {

@@ -293,8 +293,7 @@ impl<'a> Planner<'a> {
             _ if self.layer != 0 => Effect::Blends,
             // Small triangles fill hardly a pixel whole, and what they sum is quicker without.
             Paint::Solid(_) if area && !is_triangle => Effect::Inlays,
-            _ if area => Effect::Blends,
-            _ if !paint.is_opaque() => Effect::Blends,
+            _ if area || !paint.is_opaque() => Effect::Blends,
             Paint::Solid(_) => Effect::Flat,
             _ if self.settings.per_sample() => Effect::Blends,
             Paint::Gouraud(ramp) if ramp.plane().is_some() => Effect::Ramps,

@@ -1,13 +1,12 @@
 //! Which tile when, on which thread, and the way of the rows to the sink.
 
-use crate::rows::{Pool, Stopped, pump};
+use crate::rows::{Pool, Spares, Stopped, pump};
 use crate::strips::{self, Wanted};
 use crate::tile::{Job, Workspace};
 use crate::{Antialias, Control, RenderError, Sink};
 use scumble_geometry::{IntRect, TileBins, TileGrid};
 use std::ops::Range;
 use std::sync::atomic::AtomicU64;
-use std::sync::{Mutex, PoisonError};
 
 /// Tiles in flight for each thread: enough that a heavy tile does not leave the others idle.
 const TILES_PER_THREAD: usize = 8;
@@ -34,7 +33,7 @@ pub(crate) fn run<S: Sink>(
 ) -> Result<(), RenderError<S::Error>> {
     let step = bands_per_group(&grid, pool.threads());
     let mut groups =
-        Groups { job, grid, bins, pool, control, lists: Vec::new(), idle: Mutex::default() };
+        Groups { job, grid, bins, pool, control, lists: Vec::new(), idle: Spares::default() };
     let count = grid.bands().div_ceil(step);
     let render = |group: usize, buffer: &mut Vec<[u8; 4]>| {
         let bands = group * step..((group + 1) * step).min(grid.bands());
@@ -58,7 +57,7 @@ struct Groups<'a> {
     /// For each tile of the group, what touches it.
     lists: Vec<Vec<u32>>,
     /// Workspaces that no thread is using.
-    idle: Mutex<Vec<Workspace>>,
+    idle: Spares<Workspace>,
 }
 
 /// A tile to be rendered, with its pieces of the group's rows.
@@ -77,7 +76,7 @@ impl Groups<'_> {
     }
 
     fn render(&mut self, bands: Range<usize>, buffer: &mut Vec<[u8; 4]>) {
-        let (columns, grid) = (self.grid.columns(), self.grid);
+        let (columns, side, grid) = (self.grid.columns(), self.grid.side() as usize, self.grid);
         let width = grid.area().width() as usize;
         buffer.resize(self.rows(&bands).len() * width, [0; 4]);
         self.lists.resize_with(bands.len() * columns, Vec::new);
@@ -86,7 +85,7 @@ impl Groups<'_> {
         }
         let found = self.strips(bands.clone());
         let mut tasks = Vec::with_capacity(self.lists.len());
-        let pieces = buffer.chunks_mut(width * grid.side() as usize);
+        let pieces = buffer.chunks_mut(width * side);
         let lists = self.lists.chunks(columns).zip(&found);
         for ((band, strip), (lists, strips)) in bands.zip(pieces).zip(lists) {
             let first = tasks.len();
@@ -94,12 +93,10 @@ impl Groups<'_> {
                 rect: grid.tile(column, band),
                 list,
                 strips,
-                rows: Vec::with_capacity(grid.side() as usize),
+                rows: Vec::with_capacity(side),
             }));
             for row in strip.chunks_mut(width) {
-                for (task, piece) in
-                    tasks[first..].iter_mut().zip(row.chunks_mut(grid.side() as usize))
-                {
+                for (task, piece) in tasks[first..].iter_mut().zip(row.chunks_mut(side)) {
                     task.rows.push(piece);
                 }
             }
@@ -108,7 +105,7 @@ impl Groups<'_> {
         self.pool.for_each(tasks, |mut task| {
             if !control.is_cancelled() {
                 let lists = (task.list, task.strips);
-                self.with_workspace(|work| job.tile(work, task.rect, lists, &mut task.rows));
+                self.idle.lend(|work| job.tile(work, task.rect, lists, &mut task.rows));
             }
         });
     }
@@ -126,17 +123,9 @@ impl Groups<'_> {
         let spare = AtomicU64::new(job.spare.min(strips::MAX_BYTES));
         self.pool.for_each(found.iter_mut().flatten().collect(), |wanted| {
             if !self.control.is_cancelled() {
-                self.with_workspace(|work| wanted.find(grid, &spare, &mut work.scratch));
+                self.idle.lend(|work| wanted.find(grid, &spare, &mut work.scratch));
             }
         });
         found
-    }
-
-    fn with_workspace(&self, f: impl FnOnce(&mut Workspace)) {
-        // A poisoned lock means that another tile panicked; its workspace is gone, not ours.
-        let lock = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut work = lock().pop().unwrap_or_default();
-        f(&mut work);
-        lock().push(work);
     }
 }

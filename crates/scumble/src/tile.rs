@@ -104,38 +104,28 @@ impl Job<'_> {
             if effect == Effect::Ramps { self.gradients(rect, locals) } else { Vec::new() };
         colors.clear();
         colors.resize(rect.width() as usize, Premul::TRANSPARENT);
+        let shade = |key: u32, place, out: &mut [Premul]| match key.checked_sub(1) {
+            None => out.fill(self.background),
+            Some(i) => locals[i as usize].draw.paint.row(self.plan.surfaces, place, out),
+        };
         for (y, row) in (0..).zip(rows) {
             match effect {
-                Effect::Flat => {
-                    seen.encode_row(y, palette, row);
-                    continue;
+                Effect::Flat => seen.encode_row(y, palette, row),
+                Effect::Inlays => inlay.encode_row(y, palette, row),
+                Effect::Ramps => seen.encode_gradients(y, &gradients, space, row),
+                Effect::Hides => {
+                    let place = |x: usize| centre(rect.x0 + x as i32, rect.y0 + y as i32);
+                    seen.shade_row(y, colors, |key, x, out| shade(key, place(x), out));
+                    encode_row(colors, space, row);
                 }
-                Effect::Inlays => {
-                    inlay.encode_row(y, palette, row);
-                    continue;
-                }
-                Effect::Ramps => {
-                    seen.encode_gradients(y, &gradients, space, row);
-                    continue;
-                }
-                Effect::Hides => seen.shade_row(y, colors, |key, x, out| {
-                    let place = centre(rect.x0 + x as i32, rect.y0 + y as i32);
-                    match key.checked_sub(1) {
-                        None => out.fill(self.background),
-                        Some(i) => {
-                            locals[i as usize].draw.paint.row(self.plan.surfaces, place, out);
-                        }
+                Effect::Blends => match stack[0].uniform_row(y) {
+                    Some(pixels) => encode_row(pixels, space, row),
+                    None => {
+                        stack[0].resolve_row(y, colors);
+                        encode_row(colors, space, row);
                     }
-                }),
-                Effect::Blends => {
-                    if let Some(pixels) = stack[0].uniform_row(y) {
-                        encode_row(pixels, space, row);
-                        continue;
-                    }
-                    stack[0].resolve_row(y, colors);
-                }
+                },
             }
-            encode_row(colors, space, row);
         }
     }
 
@@ -320,7 +310,7 @@ impl Replay<'_> {
         if self.effect == Effect::Inlays {
             let Workspace { scratch, inlay, .. } = &mut *self.work;
             let mut coat = Coat { tile: inlay, palette: self.palette, origin, key };
-            return lay(job, (&draw.form, strip), clip, scratch, &mut coat);
+            return lay((&draw.form, strip), clip, scratch, &mut coat);
         }
         if self.effect != Effect::Blends {
             let Workspace { scratch, seen, .. } = &mut *self.work;
@@ -330,24 +320,26 @@ impl Replay<'_> {
         let Workspace { scratch, stack, colors, .. } = &mut *self.work;
         let tile = &mut stack[self.layers.len() - 1];
         let mut painter = Painter { job, paint: &draw.paint, tile, origin, colors };
-        lay(job, (&draw.form, strip), clip, scratch, &mut painter);
+        if job.settings.antialias == Antialias::Area {
+            return lay((&draw.form, strip), clip, scratch, &mut painter);
+        }
+        cover(job, &draw.form, clip, scratch, &mut painter);
     }
 }
 
-/// Hands the areas of a primitive to a sink, or its samples.
+/// Hands the areas of a primitive to a sink.
 fn lay(
-    job: &Job<'_>,
     (form, strip): (&Form, Option<&AreaStrip>),
     clip: IntRect,
     scratch: &mut Scratch,
-    sink: &mut (impl Sink + AreaSink),
+    sink: &mut impl AreaSink,
 ) {
     match (form, strip) {
         (_, Some(strip)) => strip.replay(clip, sink),
-        (Form::Shape(shape), None) if job.settings.antialias == Antialias::Area => {
-            shape.rasterize_area(clip, scratch, sink);
-        }
-        _ => cover(job, form, clip, scratch, sink),
+        (Form::Shape(shape), _) => shape.rasterize_area(clip, scratch, sink),
+        (Form::Chain(ends), _) => hairline(ends[0], ends[1], clip, |x, y| sink.run(y, x, x + 1)),
+        (Form::Pixel, _) if !clip.is_empty() => sink.block(clip),
+        (Form::Pixel, _) => {}
     }
 }
 
