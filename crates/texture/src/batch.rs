@@ -252,7 +252,8 @@ impl<S: Simd> Batch<'_, S> {
             colors[i] = magnified[i];
         }
         for i in lanes(close & far) {
-            colors[i] = lerp(colors[i], magnified[i], near[i]);
+            let (one, other) = (within(self.simd, colors[i]), within(self.simd, magnified[i]));
+            colors[i] = lerp(one.0, other.0, near[i]);
         }
     }
 

@@ -157,7 +157,12 @@ pub(crate) fn sample(
         return plan.close();
     }
     let far = plan.far(engine);
-    if plan.near > 0.0 { lerp(far, plan.close(), plan.near) } else { far }
+    if plan.near > 0.0 {
+        // Each within its range, or a halo of the one would eat what is soft in the other.
+        let (far, close) = (t.within_range(far), t.within_range(plan.close()));
+        return lerp(far.0, close.0, plan.near);
+    }
+    far
 }
 
 /// Texels that [`sample`] reads.
