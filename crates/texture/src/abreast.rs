@@ -119,41 +119,32 @@ pub(crate) fn average_all<S: Simd, const C: usize, const R: usize>(
     sheet: &mut Sheet,
     out: &mut [[f32; 4]; ABREAST],
 ) -> u64 {
-    const { assert!(R * C.div_ceil(LANES) <= QUADS) };
+    const { assert!(R <= QUADS && C <= LANES) };
     let [x, y] = [
         base[0] + patch.low[0].to_int::<i32x16<S>>(),
         base[1] + patch.low[1].to_int::<i32x16<S>>(),
     ];
-    let (frame, columns) = (&level.frame, C.next_multiple_of(LANES) as i32);
+    let frame = &level.frame;
     let ([low_x, low_y], [high_x, high_y]) = (frame.low, frame.high);
     let inside = x.simd_ge(low_x)
-        & x.simd_le(high_x.saturating_sub(columns - 1))
+        & x.simd_le(high_x.saturating_sub(LANES as i32 - 1))
         & y.simd_ge(low_y)
         & y.simd_le(high_y.saturating_sub(R as i32 - 1));
     let done = inside.to_bitmask() & wanted;
     let mut totals = i32x16::splat(simd, 0);
-    let mut used = 0;
     let x = x & level.mask[0];
     for (r, row) in patch.weights.iter().enumerate() {
         // After the masks, every sum here is an index of a texel, and fits 31 bits.
         let at = ((y + r as i32) & level.mask[1]) * (level.stride as i32) + x - level.base;
-        for (q, weights) in row.chunks(LANES).enumerate() {
-            let mut quad = [f32x16::splat(simd, 0.0); LANES];
-            quad[..weights.len()].copy_from_slice(weights);
-            let [left, right] = [pair(simd, quad[0], quad[1]), pair(simd, quad[2], quad[3])];
-            let both = left.bitcast::<i16x32<S>>() + right.bitcast::<i16x32<S>>();
-            totals += both.pairwise_dot_product(i16x32::splat(simd, 1));
-            sheet.put(
-                used,
-                left,
-                right,
-                inside.select(at + (q * LANES) as i32, i32x16::splat(simd, 0)),
-            );
-            used += 1;
-        }
+        let mut quad = [f32x16::splat(simd, 0.0); LANES];
+        quad[..C].copy_from_slice(row);
+        let [left, right] = [pair(simd, quad[0], quad[1]), pair(simd, quad[2], quad[3])];
+        let both = left.bitcast::<i16x32<S>>() + right.bitcast::<i16x32<S>>();
+        totals += both.pairwise_dot_product(i16x32::splat(simd, 1));
+        sheet.put(r, left, right, inside.select(at, i32x16::splat(simd, 0)));
     }
     let sums = Sums::Small([[0; 4]; ABREAST]);
-    sums.finish(simd, level, done, sheet, used, &shares(totals), out);
+    sums.finish(simd, level, done, sheet, R, &shares(totals), out);
     done
 }
 

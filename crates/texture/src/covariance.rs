@@ -24,6 +24,12 @@ pub(crate) struct Covariance {
     pub(crate) det: f32,
 }
 
+/// A Jacobian by rows, in single precision.
+#[inline(always)]
+pub(crate) fn single(j: &Matrix2) -> [f32; 4] {
+    [j.a, j.b, j.c, j.d].map(|v| v as f32)
+}
+
 /// The entries p, q, r of JJᵀ = [[p, q], [q, r]], of a Jacobian by rows.
 #[inline(always)]
 pub(crate) fn products<N: Number>([a, b, c, d]: [N; 4]) -> [N; 3] {
@@ -42,7 +48,7 @@ impl Covariance {
     #[inline(always)]
     pub(crate) fn of(j: &Matrix2, inverse_ratio: f32) -> (Self, f32) {
         let determinant = j.determinant() as f32;
-        let [p, q, r] = products([j.a, j.b, j.c, j.d].map(|v| v as f32));
+        let [p, q, r] = products(single(j));
         let (x, y) = (p - r, 2.0 * q);
         let h = sqrt32(x * x + y * y);
         let s1 = 0.5 * (p + r + h);

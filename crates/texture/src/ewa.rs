@@ -1,6 +1,6 @@
 //! The elliptical weighted average: from a footprint to an ellipse, a level and a walk.
 
-use crate::covariance::{Covariance, products};
+use crate::covariance::{Covariance, products, single};
 use crate::engine::Engine;
 use crate::gaussian::{UNIT, widening};
 use crate::lod::{self, Pick};
@@ -87,8 +87,7 @@ struct Plan<'a> {
 impl<'a> Plan<'a> {
     #[inline(always)]
     fn new(t: &'a Texture, f: &'a Footprint, mode: LevelMode, limits: &'a Limits) -> Self {
-        let Matrix2 { a, b, c, d } = f.jacobian;
-        let near = limits.magnify.nearness(products([a, b, c, d].map(|v| v as f32)));
+        let near = limits.magnify.nearness(products(single(&f.jacobian)));
         if mode != LevelMode::Auto {
             let step = f.longest_step_squared();
             let pick = lod::pick(step, lod::detail(step), mode, t.range());

@@ -3,7 +3,7 @@
 //! Some footprints at a time; what the fast path can do of them it does.
 
 use crate::classic::Classic;
-use crate::covariance::products;
+use crate::covariance::{products, single};
 use crate::magnify::patch::Spotted;
 use crate::radial::Radial;
 use crate::run::{Listed, Run};
@@ -12,7 +12,6 @@ use crate::texture::point_mode;
 use crate::{Footprint, Kernel, LevelMode, Magnify, PixelFilter, Sampler, Separable, Texture};
 use crate::{place, point, probes};
 use fearless_simd::dispatch;
-use scumble_geometry::Matrix2;
 use scumble_pixel::Premul;
 
 /// Pixels at a time: the fast path has a start-up cost.
@@ -89,10 +88,7 @@ impl Area {
             (Self::Separable(_), _) => 0.0,
             // They are of the Gaussian.
             (_, Magnify::Taps) => 0.0,
-            _ => {
-                let Matrix2 { a, b, c, d } = f.jacobian;
-                magnify.nearness(products([a, b, c, d].map(|v| v as f32)))
-            }
+            _ => magnify.nearness(products(single(&f.jacobian))),
         }
     }
 

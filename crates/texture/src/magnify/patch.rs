@@ -1,6 +1,7 @@
 //! A few texels in a rectangle and their weights: what every filter of a magnified texture comes to.
 
 use crate::Wrap;
+use crate::covariance::single;
 use crate::level::Level;
 use crate::math::{floor, whole};
 use crate::number::Number;
@@ -43,7 +44,7 @@ impl Spotted {
         let spot = Spot {
             x: (u - x) as f32,
             y: (v - y) as f32,
-            jacobian: [j.a, j.b, j.c, j.d].map(|v| v as f32),
+            jacobian: single(j),
             determinant: j.determinant() as f32,
         };
         Self { base: [whole(x), whole(y)], spot: spot.scaled([su, sv]) }
