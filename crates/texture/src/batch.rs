@@ -263,8 +263,8 @@ impl<S: Simd> Batch<'_, S> {
         let (simd, magnify) = (self.simd, self.limits.magnify);
         let Some(level) = self.t.levels.first() else { return };
         let [su, sv] = level.frame.scale;
-        let (x0, x) = place(self.spots.u, su);
-        let (y0, y) = place(self.spots.v, sv);
+        let (x0, x) = place(self.spots.u, su, CENTRE);
+        let (y0, y) = place(self.spots.v, sv, CENTRE);
         let Sixteen { jacobian, determinant, .. } = *self.spots;
         let spot = Spot { x, y, jacobian, determinant }.scaled([su, sv]);
         let done = magnify.average_all(simd, level, &spot, [x0, y0], wanted, self.sheet, out);
@@ -286,8 +286,8 @@ impl<S: Simd> Batch<'_, S> {
     fn walks(&self, level: &Level, sigma: Ellipses<S>) -> (Walks<S>, mask32x16<S>) {
         let (simd, limits, frame) = (self.simd, self.limits, &level.frame);
         let [scale_u, scale_v] = frame.scale;
-        let (mut x0, mut fx) = place(self.spots.u, scale_u);
-        let (mut y0, mut fy) = place(self.spots.v, scale_v);
+        let (mut x0, mut fx) = place(self.spots.u, scale_u, CENTRE);
+        let (mut y0, mut fy) = place(self.spots.v, scale_v, CENTRE);
         let mut s = sigma;
         let (mut wide, mut tall) = (reach(simd, s.uu, limits), reach(simd, s.vv, limits));
         let mut amiss = s.needs_mending(frame, limits);
@@ -359,11 +359,15 @@ fn beyond<S: Simd>(simd: S, at: &mut i32x16<S>, reach: &mut i32x16<S>, last: i32
     out
 }
 
-/// One axis of [`Place::new`](crate::walk::Place::new).
+/// From the corner of a texel to its centre.
+const CENTRE: f64 = 0.5;
+
+/// One axis of [`Place::new`](crate::walk::Place::new): the whole part and the rest of a place in a level,
+/// counted from so far into its first texel.
 #[inline(always)]
-fn place<S: Simd>(at: [f64x8<S>; 2], scale: f64) -> (i32x16<S>, f32x16<S>) {
+pub(crate) fn place<S: Simd>(at: [f64x8<S>; 2], scale: f64, shift: f64) -> (i32x16<S>, f32x16<S>) {
     let [low, high] = at;
-    let (low, high) = (low * scale - 0.5, high * scale - 0.5);
+    let (low, high) = (low * scale - shift, high * scale - shift);
     let (low0, high0) = (low.floor(), high.floor());
     let rest = (low - low0).narrow(high - high0);
     let low = (low0 + WHOLE).bitcast::<i32x16<S>>();

@@ -115,7 +115,7 @@ impl Classic {
     fn pick(&self, f: &Footprint, shape: &Shape, [first, last]: [usize; 2]) -> Pick {
         if self.sampler.level != LevelMode::Auto {
             let step = f.longest_step_squared();
-            return lod::pick(step, lod::detail(step), self.sampler.level, [first, last]);
+            return lod::pick(step, self.sampler.level, [first, last]);
         }
         let detail = (0.5 * log2(shape.minor * self.inverse_least) - 1.0).max(first as f64);
         let level = (detail as usize).min(last);

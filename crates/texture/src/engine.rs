@@ -1,11 +1,10 @@
 use crate::ewa::Limits;
 use crate::level::Level;
-use crate::point;
+use crate::points::Points;
 use crate::run::Run;
-use crate::texel::Texel;
 use crate::walk::Walk;
-use crate::{Texture, Wrap};
-use fearless_simd::{Simd, f32x8, i16x8, prelude::*};
+use crate::{LevelMode, Texture, Wrap};
+use fearless_simd::Simd;
 use scumble_pixel::Premul;
 
 /// The inner loops, in scalar code or in vectors: the same bits from each.
@@ -13,8 +12,16 @@ pub(crate) trait Engine: Copy {
     /// The weighted average of the texels in an ellipse.
     fn walk(self, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4];
 
-    /// The bilinear mean of two rows of two texels, in steps.
-    fn bilinear(self, top: &[Texel; 2], bottom: &[Texel; 2], fx: f32, fy: f32) -> [f32; 4];
+    /// Samples a run of footprints by a filter of a place, if there is a way that is quicker than one by
+    /// one.
+    fn points(
+        self,
+        t: &Texture,
+        run: impl Run,
+        mode: LevelMode,
+        filter: impl Points,
+        out: &mut [Premul],
+    ) -> bool;
 
     /// Samples a run of footprints with the level chosen by the ellipse, if there is a way that is
     /// quicker than one by one.
@@ -35,9 +42,15 @@ impl Engine for Scalar {
         crate::walk::walk(level, wrap, w)
     }
 
-    #[inline(always)]
-    fn bilinear(self, top: &[Texel; 2], bottom: &[Texel; 2], fx: f32, fy: f32) -> [f32; 4] {
-        point::bilinear(top, bottom, fx, fy)
+    fn points(
+        self,
+        _: &Texture,
+        _: impl Run,
+        _: LevelMode,
+        _: impl Points,
+        _: &mut [Premul],
+    ) -> bool {
+        false
     }
 
     fn ellipses(self, _: &Texture, _: impl Run, _: &Limits, _: &mut [Premul]) -> bool {
@@ -56,10 +69,19 @@ impl<S: Simd> Engine for Vector<S> {
     }
 
     #[inline(always)]
-    fn bilinear(self, top: &[Texel; 2], bottom: &[Texel; 2], fx: f32, fy: f32) -> [f32; 4] {
-        let top = steps(self.0, top);
-        let (left, right) = (top + (steps(self.0, bottom) - top) * fy).split();
-        (left + (right - left) * fx).to_array()
+    fn points(
+        self,
+        t: &Texture,
+        run: impl Run,
+        mode: LevelMode,
+        filter: impl Points,
+        out: &mut [Premul],
+    ) -> bool {
+        self.0.vectorize(
+            #[inline(always)]
+            || crate::points::fill(self.0, t, run, mode, filter, out),
+        );
+        true
     }
 
     #[inline(always)]
@@ -70,11 +92,4 @@ impl<S: Simd> Engine for Vector<S> {
         );
         true
     }
-}
-
-/// Two texels in steps.
-#[inline(always)]
-fn steps<S: Simd>(simd: S, texels: &[Texel; 2]) -> f32x8<S> {
-    let (a, b) = i16x8::from_slice(simd, texels.as_flattened()).widen();
-    a.combine(b).to_float::<f32x8<S>>()
 }

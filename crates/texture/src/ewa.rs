@@ -90,7 +90,7 @@ impl<'a> Plan<'a> {
         let near = limits.magnify.nearness(products(single(&f.jacobian)));
         if mode != LevelMode::Auto {
             let step = f.longest_step_squared();
-            let pick = lod::pick(step, lod::detail(step), mode, t.range());
+            let pick = lod::pick(step, mode, t.range());
             return Self { t, f, limits, pick, sigma: None, near };
         }
         let (sigma, minor) = Covariance::of(&f.jacobian, limits.inverse_ratio);

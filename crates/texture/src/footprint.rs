@@ -1,3 +1,5 @@
+use crate::covariance::single;
+use crate::lod;
 use crate::math::sqrt;
 use crate::wrap::FAR;
 use scumble_geometry::{DVec2, Homography, Matrix2};
@@ -68,13 +70,9 @@ impl Footprint {
         0.5 * (p + r + sqrt(x * x + y * y))
     }
 
-    /// The square of the longer column of the Jacobian: how far, in texels, a step of one pixel
-    /// along x or y goes.
+    /// [`lod::longest_step_squared`] of the Jacobian.
     #[inline(always)]
-    pub(crate) fn longest_step_squared(&self) -> f64 {
-        let Matrix2 { a, b, c, d } = self.jacobian;
-        let (x, y) = (a * a + c * c, b * b + d * d);
-        // Written so that a NaN in either wins.
-        if x >= y || x.is_nan() { x } else { y }
+    pub(crate) fn longest_step_squared(&self) -> f32 {
+        lod::longest_step_squared(single(&self.jacobian))
     }
 }

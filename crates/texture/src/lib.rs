@@ -137,6 +137,7 @@ mod options;
 mod outline;
 mod place;
 mod point;
+mod points;
 mod probes;
 pub mod procedural;
 mod pyramid;

@@ -3,7 +3,12 @@
 
 use crate::math::{floor32, sqrt32};
 use core::ops::{Add, Div, Mul, Sub};
-use fearless_simd::{Simd, SimdBase, SimdFloat, f32x16, prelude::*};
+use fearless_simd::{Simd, SimdBase, SimdFloat, f32x16, i32x16, prelude::*};
+
+/// Bits of a float's mantissa, what is added to its exponent, and the bits of 1.
+const MANTISSA: u32 = 23;
+const BIAS: i32 = 127;
+const ONE: u32 = 0x3f80_0000;
 
 /// A float, or a vector of floats. Every operation rounds as IEEE 754 says.
 pub(crate) trait Number:
@@ -23,6 +28,12 @@ pub(crate) trait Number:
     fn abs(self) -> Self;
     /// Brought within 0…1; of a NaN something in it.
     fn within_unit(self) -> Self;
+    /// The larger of two numbers, and the smaller; no NaN among them.
+    fn at_least(self, other: Self) -> Self;
+    fn at_most(self, other: Self) -> Self;
+    /// A positive number as 2ᵉ·m with a whole number e, of which 128 stands for what is not finite, and
+    /// m in [1, 2).
+    fn parts(self) -> [Self; 2];
     /// One number where this is above 0, and another where it is not.
     fn if_positive(self, then: Self, otherwise: Self) -> Self;
     /// A function of each number that has no other form.
@@ -55,6 +66,23 @@ impl Number for f32 {
         // Comparisons in this form are one instruction each.
         let v = if self > 0.0 { self } else { 0.0 };
         if v < 1.0 { v } else { 1.0 }
+    }
+
+    #[inline(always)]
+    fn at_least(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn parts(self) -> [Self; 2] {
+        let bits = self.to_bits();
+        let exponent = (bits >> MANTISSA & 0xff) as i32 - BIAS;
+        [exponent as Self, Self::from_bits(bits & ((1 << MANTISSA) - 1) | ONE)]
     }
 
     #[inline(always)]
@@ -92,6 +120,24 @@ impl<S: Simd> Number for f32x16<S> {
     #[inline(always)]
     fn within_unit(self) -> Self {
         self.max(self.all(0.0)).min(self.all(1.0))
+    }
+
+    #[inline(always)]
+    fn at_least(self, other: Self) -> Self {
+        self.max(other)
+    }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> Self {
+        self.min(other)
+    }
+
+    #[inline(always)]
+    fn parts(self) -> [Self; 2] {
+        let bits = self.bitcast::<i32x16<S>>();
+        let exponent = (bits >> MANTISSA & 0xff) - BIAS;
+        let mantissa = bits & ((1 << MANTISSA) - 1) | ONE as i32;
+        [exponent.to_float(), mantissa.bitcast()]
     }
 
     #[inline(always)]

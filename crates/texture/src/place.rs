@@ -40,5 +40,5 @@ pub(crate) fn cost(t: &Texture, f: &Footprint, mode: LevelMode, kernel: Separabl
 #[inline(always)]
 pub(crate) fn pick(t: &Texture, f: &Footprint, mode: LevelMode) -> Pick {
     let step = f.longest_step_squared();
-    lod::pick(step, lod::detail(step), mode, t.range())
+    lod::pick(step, mode, t.range())
 }

@@ -84,7 +84,7 @@ impl Radial {
             LevelMode::Auto => {
                 auto_pick(minor * self.limits.inverse_least, t.range(), self.limits.blend)
             }
-            mode => lod::pick(step, lod::detail(step), mode, t.range()),
+            mode => lod::pick(step, mode, t.range()),
         };
         let within = |index: usize| {
             let level = &t.levels[index];

@@ -139,6 +139,8 @@ pub(crate) struct Sixteen<S: Simd> {
     /// The Jacobian, by rows, and its determinant.
     pub(crate) jacobian: [f32x16<S>; 4],
     pub(crate) determinant: f32x16<S>,
+    /// Whether the centre is finite.
+    pub(crate) finite: mask32x16<S>,
     /// Whether all of it is finite and within what the formulas hold.
     pub(crate) usable: mask32x16<S>,
 }
@@ -157,6 +159,7 @@ impl<S: Simd> Sixteen<S> {
             v: [at_low[1], at_high[1]],
             jacobian: [a, b, c, d],
             determinant: low.determinant().narrow(high.determinant()),
+            finite: lost.simd_eq(0.0),
             usable: (sum + lost).simd_le(FAR as f32),
         }
     }

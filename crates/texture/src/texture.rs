@@ -5,6 +5,7 @@ use crate::ewa::{self, Limits};
 use crate::format::{Alpha, Channels, Texels};
 use crate::level::{LARGEST, Level, texels_kept};
 use crate::point::{self, Bilinear, Nearest};
+use crate::points::Points;
 use crate::pyramid;
 use crate::pyramid::plan::{self, Plan};
 use crate::run::{InRow, Listed, Run};
@@ -37,7 +38,7 @@ pub struct Texture {
     space: WorkingSpace,
     average: [f32; 4],
     /// Whether all colours of the image are in 0…alpha, and so are samples.
-    bounded: bool,
+    pub(crate) bounded: bool,
     pub(crate) nearer: [Nearer; 2],
     pub(crate) simd: Simd,
 }
@@ -285,12 +286,8 @@ impl Texture {
     #[inline(always)]
     fn fill(&self, engine: impl Engine, run: impl Run, s: &Sampler, out: &mut [Premul]) {
         match s.pixel {
-            PixelFilter::Nearest => {
-                return point::fill(self, engine, run, point_mode(s), Nearest, out);
-            }
-            PixelFilter::Bilinear => {
-                return point::fill(self, engine, run, point_mode(s), Bilinear, out);
-            }
+            PixelFilter::Nearest => return self.fill_points(engine, run, s, Nearest, out),
+            PixelFilter::Bilinear => return self.fill_points(engine, run, s, Bilinear, out),
             _ => (),
         }
         let limits = Limits::new(s);
@@ -309,6 +306,25 @@ impl Texture {
         }
     }
 
+    /// Samples a run of footprints by a filter of a place.
+    #[inline(always)]
+    fn fill_points(
+        &self,
+        engine: impl Engine,
+        run: impl Run,
+        s: &Sampler,
+        filter: impl Points,
+        out: &mut [Premul],
+    ) {
+        let mode = point_mode(s);
+        if out.len() >= batch::WORTH && engine.points(self, run, mode, filter, out) {
+            return;
+        }
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = point::sample(self, &run.at(i), mode, filter);
+        }
+    }
+
     /// How many texels [`Texture::sample`] reads for a footprint, those of weight 0 included.
     #[must_use]
     pub fn cost(&self, f: &Footprint, s: &Sampler) -> usize {
@@ -323,7 +339,7 @@ impl Texture {
             _ => return self.cost_fast(&f, s),
         };
         let step = f.longest_step_squared();
-        let pick = lod::pick(step, lod::detail(step), point_mode(s), self.range());
+        let pick = lod::pick(step, point_mode(s), self.range());
         let two = pick.coarser > 0.0;
         if two { 2 * each } else { each }
     }

@@ -60,7 +60,7 @@ fn piece<S: Simd>(
 
 /// Four numbers, four times each.
 #[inline(always)]
-fn expand<S: Simd>(simd: S, numbers: [f32; QUADS]) -> f32x16<S> {
+pub(crate) fn expand<S: Simd>(simd: S, numbers: [f32; QUADS]) -> f32x16<S> {
     let four = f32x16::block_splat(f32x4::load_array(simd, numbers));
     four.swizzle_dyn_within_blocks(u8x64::load_array(simd, EXPAND))
 }
