@@ -8,7 +8,7 @@ use crate::batch::lanes;
 use crate::level::Level;
 use crate::magnify::patch::Patch;
 use crate::run::ABREAST;
-use crate::texel::ROUNDER;
+use crate::texel::{ROUNDER, Texel};
 use crate::walk::{LANES, Walk, mean};
 use crate::walk_simd::{EXPAND, PAIR};
 use crate::{Texture, gaussian::lanes as gaussian};
@@ -83,6 +83,7 @@ pub(crate) fn walk_all<S: Simd>(
     out: &mut [[f32; 4]; ABREAST],
 ) {
     let walk = mask32x16::from_bitmask(simd, wanted);
+    let texels = &level.texels;
     let groups = walk.select(walks.groups, i32x16::splat(simd, 0));
     let small = wanted & !walks.small.to_bitmask() == 0;
     let mut sums =
@@ -96,12 +97,12 @@ pub(crate) fn walk_all<S: Simd>(
             *at = walks.row(simd, level, &rows, [group, r], weights, &mut totals).to_array();
             used += 1;
             if used == QUADS {
-                sums.gather(simd, level, wanted, sheet, used);
+                sums.gather(simd, texels, wanted, sheet, used);
                 used = 0;
             }
         }
     }
-    sums.finish(simd, level, wanted, sheet, used, &shares(totals), out);
+    sums.finish(simd, texels, wanted, sheet, used, &shares(totals), out);
     for i in lanes(totals.simd_le(0).to_bitmask() & wanted) {
         out[i] = walks.get(i).centre(level, t.wrap);
     }
@@ -144,7 +145,7 @@ pub(crate) fn average_all<S: Simd, const C: usize, const R: usize>(
         sheet.put(r, left, right, inside.select(at, i32x16::splat(simd, 0)));
     }
     let sums = Sums::Small([[0; 4]; ABREAST]);
-    sums.finish(simd, level, done, sheet, R, &shares(totals), out);
+    sums.finish(simd, &level.texels, done, sheet, R, &shares(totals), out);
     done
 }
 
@@ -270,7 +271,7 @@ impl Sums {
     fn gather<S: Simd>(
         &mut self,
         simd: S,
-        level: &Level,
+        texels: &[Texel],
         wanted: u64,
         sheet: &Sheet,
         quads: usize,
@@ -278,13 +279,13 @@ impl Sums {
         match self {
             Self::Small(sums) => {
                 for i in lanes(wanted) {
-                    let own = small(simd, level, sheet, quads, i);
+                    let own = small(simd, texels, sheet, quads, i);
                     sums[i] = (own + i32x4::load_array(simd, sums[i])).to_array();
                 }
             }
             Self::Large(sums) => {
                 for i in lanes(wanted) {
-                    let own = large(simd, level, sheet, quads, i);
+                    let own = large(simd, texels, sheet, quads, i);
                     (0..4).for_each(|c| sums[i][c] += own[c]);
                 }
             }
@@ -298,7 +299,7 @@ impl Sums {
     fn finish<S: Simd>(
         mut self,
         simd: S,
-        level: &Level,
+        texels: &[Texel],
         wanted: u64,
         sheet: &Sheet,
         quads: usize,
@@ -307,13 +308,13 @@ impl Sums {
     ) {
         if let Self::Small(sums) = &self {
             for i in lanes(wanted) {
-                let own = small(simd, level, sheet, quads, i);
+                let own = small(simd, texels, sheet, quads, i);
                 let sum = (own + i32x4::load_array(simd, sums[i])).to_array();
                 out[i] = mean(sum.map(f64::from), shares[i]);
             }
             return;
         }
-        self.gather(simd, level, wanted, sheet, quads);
+        self.gather(simd, texels, wanted, sheet, quads);
         if let Self::Large(sums) = &self {
             for i in lanes(wanted) {
                 out[i] = mean(sums[i], shares[i]);
@@ -324,24 +325,24 @@ impl Sums {
 
 /// The sum of so many quads of a walk, which is sure to fit 31 bits.
 #[inline(always)]
-fn small<S: Simd>(simd: S, level: &Level, sheet: &Sheet, quads: usize, walk: usize) -> i32x4<S> {
+fn small<S: Simd>(simd: S, texels: &[Texel], sheet: &Sheet, quads: usize, walk: usize) -> i32x4<S> {
     let mut own = i32x8::splat(simd, 0);
     for (weights, at) in sheet.weights[..quads.min(QUADS)].iter().zip(&sheet.at) {
-        own += quad(simd, level, [weights[2 * walk], weights[2 * walk + 1]], at[walk]);
+        own += quad(simd, texels, [weights[2 * walk], weights[2 * walk + 1]], at[walk]);
     }
     fold(own)
 }
 
 /// The sum of so many quads of a walk, whatever it is.
 #[inline(always)]
-fn large<S: Simd>(simd: S, level: &Level, sheet: &Sheet, quads: usize, walk: usize) -> [f64; 4] {
+fn large<S: Simd>(simd: S, texels: &[Texel], sheet: &Sheet, quads: usize, walk: usize) -> [f64; 4] {
     let zero = i32x8::splat(simd, 0);
     let (mut high, mut low) = (zero, zero);
     let weights = sheet.weights[..quads.min(QUADS)].chunks(ROOM);
     for (weights, at) in weights.zip(sheet.at.chunks(ROOM)) {
         let mut own = zero;
         for (weights, at) in weights.iter().zip(at) {
-            own += quad(simd, level, [weights[2 * walk], weights[2 * walk + 1]], at[walk]);
+            own += quad(simd, texels, [weights[2 * walk], weights[2 * walk + 1]], at[walk]);
         }
         high += own >> 12;
         low += own & 0xfff;
@@ -360,9 +361,9 @@ const ROOM: usize = 12;
 
 /// Four texels of a row by their weights: Σ w·t of the channels, those of every second texel apart.
 #[inline(always)]
-fn quad<S: Simd>(simd: S, level: &Level, [left, right]: [i32; 2], at: i32) -> i32x8<S> {
+fn quad<S: Simd>(simd: S, texels: &[Texel], [left, right]: [i32; 2], at: i32) -> i32x8<S> {
     let i = at as u32 as usize;
-    let run = level.texels.get(i..i + LANES).unwrap_or(&[[0; 4]; LANES]);
+    let run = texels.get(i..i + LANES).unwrap_or(&[[0; 4]; LANES]);
     let texels = i16x16::from_slice(simd, run.as_flattened());
     // The weights of two texels side by side are a pair; so are, after this, their channels.
     let texels = texels.swizzle_dyn_within_blocks(half(simd, &PAIR));

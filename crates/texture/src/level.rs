@@ -1,7 +1,7 @@
+use crate::memory::Memory;
 use crate::pyramid::plan::Span;
 use crate::texel::{Cell, STEP, Texel, color, of_color};
 use crate::{TextureError, Wrap};
-use alloc::{vec, vec::Vec};
 use scumble_pixel::ImageView;
 
 /// One level, or a part of it: rows of premultiplied RGBA in the working space, [`stride`] texels from
@@ -18,9 +18,9 @@ pub(crate) struct Level {
     pub(crate) part: [Span; 2],
     pub(crate) stride: usize,
     /// Texels in steps; none if they are floats.
-    pub(crate) texels: Vec<Texel>,
+    pub(crate) texels: Memory<Texel>,
     /// Texels as floats; none if they are in steps.
-    pub(crate) floats: Vec<[f32; 4]>,
+    pub(crate) floats: Memory<[f32; 4]>,
     /// The index in `texels` of texel (0, 0), which may not be kept, below zero: what is to be taken
     /// off y·stride + x.
     pub(crate) base: i32,
@@ -78,16 +78,6 @@ pub(crate) fn texels_kept(part: [Span; 2]) -> Option<usize> {
     stride(part[0].len()).checked_mul(part[1].len().checked_add(2 * APRON)?)
 }
 
-/// Memory of so many texels. Of the system's pages those that are never written cost nothing.
-pub(crate) fn zeroed<T: Clone + Default>(len: usize) -> Result<Vec<T>, TextureError> {
-    // Asked for first, so that a refusal is an error; then had zeroed from the system.
-    let mut asked = Vec::<T>::new();
-    let bytes = len.saturating_mul(size_of::<T>());
-    asked.try_reserve_exact(len).map_err(|_| TextureError::OutOfMemory { bytes })?;
-    drop(asked);
-    Ok(vec![T::default(); len])
-}
-
 impl Level {
     /// A level of no meaning, to be filled, in the memory of another if that is of its size.
     pub(crate) fn new<T: Cell>(
@@ -119,8 +109,8 @@ impl Level {
             height,
             part,
             stride,
-            texels: Vec::new(),
-            floats: Vec::new(),
+            texels: Memory::default(),
+            floats: Memory::default(),
             base,
             mask: [-1; 2],
             frame,
@@ -129,7 +119,7 @@ impl Level {
             old
         } else {
             drop(old);
-            zeroed(len)?
+            Memory::zeroed(len)?
         };
         Ok(level)
     }

@@ -130,6 +130,7 @@ mod lod;
 mod magnify;
 pub mod maps;
 mod math;
+mod memory;
 mod mixture;
 mod names;
 mod number;

@@ -6,14 +6,14 @@
 //! the box filter divides. Rounding to a step is noise at −95 dB.
 
 use crate::level::Level;
+use crate::memory::{Memory, Plain};
 use crate::pyramid::{Lanes, halve};
-use alloc::vec::Vec;
 
 /// Premultiplied RGBA in the working space, in steps.
 pub(crate) type Texel = [i16; 4];
 
 /// A texel as it is stored: in steps, or in floats.
-pub(crate) trait Cell: Copy + Default + Send + Sync {
+pub(crate) trait Cell: Plain + Send + Sync {
     /// A channel.
     type Number: Copy + Into<f32>;
     /// Whether it is rounded to a step, after which sums of constants are the constant again.
@@ -46,7 +46,7 @@ pub(crate) trait Cell: Copy + Default + Send + Sync {
         halve(above, below, out);
     }
     /// The memory of a level of such texels.
-    fn memory(level: &mut Level) -> &mut Vec<Self>;
+    fn memory(level: &mut Level) -> &mut Memory<Self>;
 }
 
 impl Cell for Texel {
@@ -112,7 +112,7 @@ impl Cell for Texel {
         lanes.halve(above, below, out);
     }
 
-    fn memory(level: &mut Level) -> &mut Vec<Self> {
+    fn memory(level: &mut Level) -> &mut Memory<Self> {
         &mut level.texels
     }
 }
@@ -164,7 +164,7 @@ impl Cell for [f32; 4] {
         color(steps)
     }
 
-    fn memory(level: &mut Level) -> &mut Vec<Self> {
+    fn memory(level: &mut Level) -> &mut Memory<Self> {
         &mut level.floats
     }
 }

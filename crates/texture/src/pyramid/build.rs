@@ -148,7 +148,7 @@ mod tests {
         while let Some(y) = making.next() {
             making.push(&decoder, &pixels[y * w..][..w]);
         }
-        making.finish().into_iter().map(|level| level.texels).collect()
+        making.finish().into_iter().map(|level| level.texels.to_vec()).collect()
     }
 
     fn agree<P: Channels>(size: [usize; 2], pixels: &[P], options: &TextureOptions) {

@@ -3,7 +3,8 @@
 use crate::TextureError;
 use crate::decode::Decoder;
 use crate::format::{Alpha, Channels};
-use crate::level::{Level, zeroed};
+use crate::level::Level;
+use crate::memory::zeroed;
 use crate::pyramid::filter::{self, Lanes, Line};
 use crate::pyramid::plan::{Plan, Span};
 use crate::pyramid::rung::{Course, Rung};

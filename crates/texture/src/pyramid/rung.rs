@@ -2,7 +2,7 @@
 
 use crate::TextureError;
 use crate::decimate::Taps;
-use crate::level::zeroed;
+use crate::memory::zeroed;
 use crate::pyramid::plan::{LevelPlan, Span};
 use crate::texel::Cell;
 use alloc::vec::Vec;
