@@ -78,15 +78,20 @@ pub(crate) fn log2(x: f64) -> f64 {
 }
 
 /// e^x for x in [−700, 0], relative error below 1e−14; 0 below that.
-pub(crate) fn exp(x: f64) -> f64 {
+pub(crate) const fn exp(x: f64) -> f64 {
     if x < -700.0 {
         return 0.0;
     }
     // e^x = (e^(x/1024))^1024: the argument of the series is below 0.7.
     let small = x / 1024.0;
-    let mut value = (1..20).rev().fold(1.0, |sum, k| 1.0 + sum * small / f64::from(k));
-    for _ in 0..10 {
+    let (mut value, mut k) = (1.0, 19);
+    while k > 0 {
+        value = 1.0 + value * small / k as f64;
+        k -= 1;
+    }
+    while k < 10 {
         value *= value;
+        k += 1;
     }
     value
 }
