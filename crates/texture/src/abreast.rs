@@ -10,10 +10,10 @@ use crate::magnify::patch::Patch;
 use crate::run::ABREAST;
 use crate::texel::{ROUNDER, Texel};
 use crate::walk::{LANES, Walk, mean};
-use crate::walk_simd::{EXPAND, PAIR};
+use crate::walk_simd::PAIR;
 use crate::{Texture, gaussian::lanes as gaussian};
 use fearless_simd::{
-    Simd, f32x16, f64x4, i16x16, i16x32, i32x4, i32x8, i32x16, mask32x16, prelude::*, u8x32,
+    Simd, f32x16, i16x16, i16x32, i32x4, i32x8, i32x16, mask32x16, prelude::*, u8x32,
 };
 
 /// Quads of each walk that are weighed before their texels are read: as many as most ellipses of the
@@ -43,32 +43,37 @@ pub(crate) struct Walks<S: Simd> {
 /// Memory for [`walk_all`], made once for a run of pixels: by quad and then by lane.
 #[derive(Debug)]
 pub(crate) struct Sheet {
-    /// Four weights of 16 bits, in two pairs.
-    weights: [[i32; 2 * ABREAST]; QUADS],
+    /// Four weights of 16 bits: the pair on the left, and that on the right.
+    left: [[i32; ABREAST]; QUADS],
+    right: [[i32; ABREAST]; QUADS],
     /// The index of the first texel.
     at: [[i32; ABREAST]; QUADS],
 }
 
 impl Default for Sheet {
     fn default() -> Self {
-        Self { weights: [[0; 2 * ABREAST]; QUADS], at: [[0; ABREAST]; QUADS] }
+        let none = [[0; ABREAST]; QUADS];
+        Self { left: none, right: none, at: none }
     }
 }
 
 impl Sheet {
     #[inline(always)]
-    fn put<S: Simd>(&mut self, quad: usize, left: i32x16<S>, right: i32x16<S>, at: i32x16<S>) {
-        store(&mut self.weights[quad], left, right);
+    fn put<S: Simd>(&mut self, quad: usize, [left, right]: [i32x16<S>; 2], at: i32x16<S>) {
+        self.left[quad] = left.to_array();
+        self.right[quad] = right.to_array();
         self.at[quad] = at.to_array();
     }
-}
 
-/// Keeps the weights of a quad of each lane: the pair on the left and that on the right, lane by lane.
-#[inline(always)]
-fn store<S: Simd>(weights: &mut [i32; 2 * ABREAST], left: i32x16<S>, right: i32x16<S>) {
-    let (low, high) = weights.split_at_mut(ABREAST);
-    left.zip_low(right).store_slice(low);
-    left.zip_high(right).store_slice(high);
+    /// The pairs of weights of so many quads of a walk, and the index of the first texel of each.
+    #[inline(always)]
+    fn quads(&self, quads: usize, walk: usize) -> impl Iterator<Item = ([i32; 2], i32)> {
+        let pairs = self.left[..quads.min(QUADS)].iter().zip(&self.right);
+        pairs.zip(&self.at).map(
+            #[inline(always)]
+            move |((left, right), at)| ([left[walk], right[walk]], at[walk]),
+        )
+    }
 }
 
 /// The colours of the walks whose bits are set.
@@ -91,10 +96,13 @@ pub(crate) fn walk_all<S: Simd>(
     let mut totals = i32x16::splat(simd, 0);
     let mut used = 0;
     for group in 0..most(groups) {
-        let rows = walks.rows(simd, groups, group);
-        for r in 0..most(rows.count) {
-            let (weights, at) = (&mut sheet.weights[used], &mut sheet.at[used]);
-            *at = walks.row(simd, level, &rows, [group, r], weights, &mut totals).to_array();
+        let mut rows = walks.rows(simd, groups, group);
+        for _ in 0..most(rows.count) {
+            let (weights, at) = walks.row(simd, level, &mut rows);
+            let [left, right] = weights;
+            let both = (left + right).bitcast::<i16x32<S>>();
+            totals += both.pairwise_dot_product(i16x32::splat(simd, 1));
+            sheet.put(used, weights, at);
             used += 1;
             if used == QUADS {
                 sums.gather(simd, texels, wanted, sheet, used);
@@ -142,7 +150,7 @@ pub(crate) fn average_all<S: Simd, const C: usize, const R: usize>(
         let [left, right] = [pair(simd, quad[0], quad[1]), pair(simd, quad[2], quad[3])];
         let both = left.bitcast::<i16x32<S>>() + right.bitcast::<i16x32<S>>();
         totals += both.pairwise_dot_product(i16x32::splat(simd, 1));
-        sheet.put(r, left, right, inside.select(at, i32x16::splat(simd, 0)));
+        sheet.put(r, [left, right], inside.select(at, i32x16::splat(simd, 0)));
     }
     let sums = Sums::Small([[0; 4]; ABREAST]);
     sums.finish(simd, &level.texels, done, sheet, R, &shares(totals), out);
@@ -173,10 +181,16 @@ fn most<S: Simd>(v: i32x16<S>) -> i32 {
     v.reduce_max()
 }
 
-/// The rows that have a quad of a number.
+/// The rows that have a quad of a number, from the next one on.
 struct Rows<S: Simd> {
-    first: f32x16<S>,
+    /// How many.
     count: i32x16<S>,
+    /// The next, from the walk's own and from the level's first.
+    j: f32x16<S>,
+    y: i32x16<S>,
+    /// The column from which quads of this number are counted, and how far it is from the walk's first.
+    x: i32x16<S>,
+    shift: f32,
 }
 
 impl<S: Simd> Walks<S> {
@@ -203,41 +217,36 @@ impl<S: Simd> Walks<S> {
         let first = -(reach - self.fy).floor();
         let last = (reach + self.fy).floor();
         let count = (last - first).to_int::<i32x16<S>>() + 1;
-        Rows { first, count: groups.simd_gt(group).select(count, i32x16::splat(simd, 0)) }
+        let shift = LANES as i32 * group + 1;
+        Rows {
+            count: groups.simd_gt(group).select(count, i32x16::splat(simd, 0)),
+            j: first,
+            y: first.to_int::<i32x16<S>>() + self.y0,
+            x: self.x0 + shift,
+            shift: shift as f32,
+        }
     }
 
-    /// The weights of a quad in a row of each walk, and the index of its first texel.
+    /// The weights of a quad in the next row of each walk, and the index of its first texel, which is of no
+    /// meaning where the weights are 0.
     #[inline(always)]
-    fn row(
-        &self,
-        simd: S,
-        level: &Level,
-        rows: &Rows<S>,
-        [group, r]: [i32; 2],
-        weights: &mut [i32; 2 * ABREAST],
-        totals: &mut i32x16<S>,
-    ) -> i32x16<S> {
-        let j = rows.first + r as f32;
-        let dv = j - self.fy;
+    fn row(&self, simd: S, level: &Level, rows: &mut Rows<S>) -> ([i32x16<S>; 2], i32x16<S>) {
+        let dv = rows.j - self.fy;
         let e = (dv * dv) * self.row_scale;
         let half = (self.cut - e).max(f32x16::splat(simd, 0.0));
         let half = (half * self.run_width).sqrt();
         let low = (dv * self.slope + self.fx) - half;
         let before = low.floor();
-        let shift = LANES as i32 * group;
-        let offset = (f32x16::splat(simd, shift as f32 + 1.0) - half) - (low - before);
-        let live = rows.count.simd_gt(r);
-        let e = live.select(e, f32x16::splat(simd, NOTHING));
-        let left = self.pair(simd, e, offset);
-        let right = self.pair(simd, e, offset + 2.0);
-        let both = (left + right).bitcast::<i16x32<S>>();
-        *totals += both.pairwise_dot_product(i16x32::splat(simd, 1));
-        store(weights, left, right);
+        let offset = (f32x16::splat(simd, rows.shift) - half) - (low - before);
+        let e = rows.count.simd_gt(0).select(e, f32x16::splat(simd, NOTHING));
+        let weights = [self.pair(simd, e, offset), self.pair(simd, e, offset + 2.0)];
         // After the masks, every sum here is an index of a texel, and fits 31 bits.
-        let y = (j.to_int::<i32x16<S>>() + self.y0) & level.mask[1];
-        let x = (before.to_int::<i32x16<S>>() + self.x0 + (1 + shift)) & level.mask[0];
-        let at = y * (level.stride as i32) + x - level.base;
-        live.select(at, i32x16::splat(simd, 0))
+        let line = (rows.y & level.mask[1]) * (level.stride as i32) - level.base;
+        let x = (before.to_int::<i32x16<S>>() + rows.x) & level.mask[0];
+        rows.j += 1.0;
+        rows.y += 1;
+        rows.count -= 1;
+        (weights, line + x)
     }
 
     /// The weights of two texels side by side, the first of which lies so far from the middle of its row:
@@ -327,8 +336,8 @@ impl Sums {
 #[inline(always)]
 fn small<S: Simd>(simd: S, texels: &[Texel], sheet: &Sheet, quads: usize, walk: usize) -> i32x4<S> {
     let mut own = i32x8::splat(simd, 0);
-    for (weights, at) in sheet.weights[..quads.min(QUADS)].iter().zip(&sheet.at) {
-        own += quad(simd, texels, [weights[2 * walk], weights[2 * walk + 1]], at[walk]);
+    for (weights, at) in sheet.quads(quads, walk) {
+        own += quad(simd, texels, weights, at);
     }
     fold(own)
 }
@@ -338,11 +347,11 @@ fn small<S: Simd>(simd: S, texels: &[Texel], sheet: &Sheet, quads: usize, walk: 
 fn large<S: Simd>(simd: S, texels: &[Texel], sheet: &Sheet, quads: usize, walk: usize) -> [f64; 4] {
     let zero = i32x8::splat(simd, 0);
     let (mut high, mut low) = (zero, zero);
-    let weights = sheet.weights[..quads.min(QUADS)].chunks(ROOM);
-    for (weights, at) in weights.zip(sheet.at.chunks(ROOM)) {
+    let mut rest = sheet.quads(quads, walk);
+    for _ in 0..quads.min(QUADS).div_ceil(ROOM) {
         let mut own = zero;
-        for (weights, at) in weights.iter().zip(at) {
-            own += quad(simd, texels, [weights[2 * walk], weights[2 * walk + 1]], at[walk]);
+        for (weights, at) in rest.by_ref().take(ROOM) {
+            own += quad(simd, texels, weights, at);
         }
         high += own >> 12;
         low += own & 0xfff;
@@ -366,11 +375,9 @@ fn quad<S: Simd>(simd: S, texels: &[Texel], [left, right]: [i32; 2], at: i32) ->
     let run = texels.get(i..i + LANES).unwrap_or(&[[0; 4]; LANES]);
     let texels = i16x16::from_slice(simd, run.as_flattened());
     // The weights of two texels side by side are a pair; so are, after this, their channels.
-    let texels = texels.swizzle_dyn_within_blocks(half(simd, &PAIR));
-    let pairs = u64::from(left as u32) | u64::from(right as u32) << 32;
-    let pairs = f64x4::splat(simd, f64::from_bits(pairs)).bitcast::<i16x16<S>>();
-    let pairs = pairs.swizzle_dyn_within_blocks(half(simd, &EXPAND));
-    texels.pairwise_dot_product(pairs)
+    let texels = texels.swizzle_dyn_within_blocks(u8x32::from_slice(simd, &PAIR[..32]));
+    let pairs = i32x4::splat(simd, left).combine(i32x4::splat(simd, right));
+    texels.pairwise_dot_product(pairs.bitcast::<i16x16<S>>())
 }
 
 /// The sum of the two blocks of four.
@@ -378,10 +385,4 @@ fn quad<S: Simd>(simd: S, texels: &[Texel], [left, right]: [i32; 2], at: i32) ->
 fn fold<S: Simd>(v: i32x8<S>) -> i32x4<S> {
     let (left, right) = v.split();
     left + right
-}
-
-/// The first half of a table.
-#[inline(always)]
-fn half<S: Simd>(simd: S, table: &[u8; 64]) -> u8x32<S> {
-    u8x32::from_slice(simd, &table[..32])
 }

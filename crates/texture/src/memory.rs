@@ -55,6 +55,13 @@ fn large(bytes: usize) -> Option<memmap2::MmapMut> {
     Some(map)
 }
 
+/// Its texels: a function of its own, whose checks do not stand in loops.
+#[cfg(feature = "huge-pages")]
+#[inline(never)]
+fn cast<T: Plain>(map: &memmap2::MmapMut) -> &[T] {
+    bytemuck::cast_slice(map)
+}
+
 /// So many, zeroed by the system.
 pub(crate) fn zeroed<T: Clone + Default>(len: usize) -> Result<Vec<T>, TextureError> {
     // Asked for first, so that a refusal is an error; then had zeroed from the system.
@@ -92,7 +99,7 @@ impl<T: Plain> Deref for Memory<T> {
         match self {
             Self::Small(memory) => memory,
             #[cfg(feature = "huge-pages")]
-            Self::Large(map) => bytemuck::cast_slice(map),
+            Self::Large(map) => cast(map),
         }
     }
 }
