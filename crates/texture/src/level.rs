@@ -27,6 +27,8 @@ pub(crate) struct Level {
     /// What an index is cut to, per axis, before it is used: all ones, or a size less one where the
     /// level is a tile whose sides are powers of two.
     pub(crate) mask: [i32; 2],
+    /// What stands beyond the level, where that is one colour.
+    pub(crate) outside: Texel,
     pub(crate) frame: Frame,
 }
 
@@ -113,6 +115,7 @@ impl Level {
             floats: Memory::default(),
             base,
             mask: [-1; 2],
+            outside: Texel::default(),
             frame,
         };
         *T::memory(&mut level) = if old.len() == len {
@@ -142,6 +145,7 @@ impl Level {
     /// reach to an end there is nothing to fill, and pages that nobody reads are left alone.
     pub(crate) fn seal(&mut self, wrap: Wrap, stored: &[Span]) {
         self.frame.ends = matches!(wrap, Wrap::Clamp | Wrap::Constant(_));
+        self.outside = of_color(wrap.border());
         if self.is_float() {
             self.fill_apron::<[f32; 4]>(wrap, stored);
         } else {
@@ -247,7 +251,7 @@ impl Level {
     pub(crate) fn stored(&self, x: i32, y: i32, wrap: Wrap) -> Texel {
         match (wrap.resolve(x, self.width), wrap.resolve(y, self.height)) {
             (Some(x), Some(y)) => self.texels[self.start(y) + self.part[0].place(x)],
-            _ => of_color(wrap.border()),
+            _ => self.outside,
         }
     }
 

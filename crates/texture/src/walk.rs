@@ -8,7 +8,7 @@ use crate::gaussian::weight;
 use crate::level::{APRON, Frame, Level};
 use crate::math::{floor, floor32, sqrt32, whole};
 use crate::pyramid::plan::Span;
-use crate::texel::{STEP, Texel, of_color};
+use crate::texel::{STEP, Texel};
 
 /// Texels of a row that are read in one piece: a quad.
 pub(crate) const LANES: usize = 4;
@@ -201,7 +201,7 @@ impl Walk {
     pub(crate) fn row<'a>(&self, j: i32, level: &'a Level, wrap: Wrap) -> Row<'a> {
         let y = wrap.resolve(self.y0 + j, level.height);
         let texels = y.map(|y| level.row_with_apron(y));
-        Row { texels, columns: level.part[0], width: level.width, wrap }
+        Row { texels, outside: level.outside, columns: level.part[0], width: level.width, wrap }
     }
 }
 
@@ -220,6 +220,8 @@ pub(crate) fn mean(sums: [f64; 4], share: f64) -> [f32; 4] {
 pub(crate) struct Row<'a> {
     /// With the apron on both sides.
     texels: Option<&'a [Texel]>,
+    /// The constant.
+    outside: Texel,
     /// Columns that are kept, the apron apart.
     columns: Span,
     /// Columns of the level.
@@ -238,6 +240,7 @@ impl Row<'_> {
         let inside = self.texels.and_then(|row| row.get(place.ok()?..)?.first_chunk());
         match inside {
             Some(run) => f(run),
+            None if self.texels.is_none() => f(&[self.outside; LANES]),
             None => f(&self.collect(x)),
         }
     }
@@ -250,7 +253,7 @@ impl Row<'_> {
                 let column = self.wrap.resolve(x + i as i32, self.width)?;
                 Some(row[self.columns.place(column) + APRON])
             });
-            found.unwrap_or_else(|| of_color(self.wrap.border()))
+            found.unwrap_or(self.outside)
         })
     }
 }

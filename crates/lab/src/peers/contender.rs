@@ -4,7 +4,7 @@ use super::PeersError;
 use super::truth::Pixel;
 use crate::quality::{SIZE, Source, warps};
 use crate::timing::clock;
-use scumble::texture::{Decimation, Texture, TextureOptions};
+use scumble::texture::{Decimation, Levels, Texture, TextureOptions};
 use scumble_geometry::Homography;
 use scumble_pixel::{Image, WorkingSpace};
 use serde_json::Value;
@@ -255,21 +255,26 @@ pub(super) fn mips(
         [0, 1, 2, 3].map(|i| (n + i) as u8)
     })
     .map_err(|e| PeersError::Ours(e.to_string()))?;
-    let ours = |decimation, space| {
-        let options = TextureOptions { decimation, space, ..TextureOptions::default() };
+    let ours = |decimation, space, first| {
+        let levels = Levels::Range { first, last: usize::MAX };
+        let options = TextureOptions { decimation, space, levels, ..TextureOptions::default() };
         clock(|| Texture::new(image.view(), &options)).map_err(|e| PeersError::Ours(e.to_string()))
     };
     let mut rows = vec![
-        ("ours, box, encoded", Vec::new()),
-        ("ours, Kaiser, linear light", Vec::new()),
-        ("OpenCV `INTER_AREA`, encoded", Vec::new()),
+        ("ours, box, encoded, from level 1 on", Vec::new()),
+        ("ours, Kaiser, linear light, from level 1 on", Vec::new()),
+        ("ours, box, encoded, with level 0", Vec::new()),
+        ("ours, Kaiser, linear light, with level 0", Vec::new()),
+        ("OpenCV `INTER_AREA`, encoded, from level 1 on", Vec::new()),
     ];
     for _ in 0..rounds {
-        rows[0].1.push(ours(Decimation::Box, WorkingSpace::Srgb)?);
-        rows[1].1.push(ours(Decimation::Kaiser, WorkingSpace::Linear)?);
+        for (first, rows) in [1, 0].into_iter().zip(rows.as_chunks_mut::<2>().0) {
+            rows[0].1.push(ours(Decimation::Box, WorkingSpace::Srgb, first)?);
+            rows[1].1.push(ours(Decimation::Kaiser, WorkingSpace::Linear, first)?);
+        }
         let mut command = Command::new(&programs.python);
         let said = output(command.args(["-c", SCRIPT, "mips", &LARGE.to_string()]));
-        rows[2].1.extend(said.ok().and_then(|s| s.trim().parse::<f64>().ok()));
+        rows[4].1.extend(said.ok().and_then(|s| s.trim().parse::<f64>().ok()));
     }
     rows.retain(|(_, times)| !times.is_empty());
     Ok(rows)
