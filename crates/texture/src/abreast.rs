@@ -20,6 +20,9 @@ use fearless_simd::{
 /// default have. More take longer to clear for each run of pixels.
 const QUADS: usize = 24;
 
+/// The columns and rows of a quad.
+const QUAD: [i32; 2] = [LANES as i32, 1];
+
 /// An exponent beyond every cut.
 pub(crate) const NOTHING: f32 = 16.0;
 
@@ -133,18 +136,11 @@ pub(crate) fn average_all<S: Simd, const C: usize, const R: usize>(
         base[0] + patch.low[0].to_int::<i32x16<S>>(),
         base[1] + patch.low[1].to_int::<i32x16<S>>(),
     ];
-    let frame = &level.frame;
-    let ([low_x, low_y], [high_x, high_y]) = (frame.low, frame.high);
-    let inside = x.simd_ge(low_x)
-        & x.simd_le(high_x.saturating_sub(LANES as i32 - 1))
-        & y.simd_ge(low_y)
-        & y.simd_le(high_y.saturating_sub(R as i32 - 1));
+    let inside = level.reads(simd, [x, y], [LANES as i32, R as i32]);
     let done = inside.to_bitmask() & wanted;
     let mut totals = i32x16::splat(simd, 0);
-    let x = x & level.mask[0];
     for (r, row) in patch.weights.iter().enumerate() {
-        // After the masks, every sum here is an index of a texel, and fits 31 bits.
-        let at = ((y + r as i32) & level.mask[1]) * (level.stride as i32) + x - level.base;
+        let at = level.indices(simd, [x, y + r as i32], QUAD);
         let mut quad = [f32x16::splat(simd, 0.0); LANES];
         quad[..C].copy_from_slice(row);
         let [left, right] = [pair(simd, quad[0], quad[1]), pair(simd, quad[2], quad[3])];
@@ -240,13 +236,12 @@ impl<S: Simd> Walks<S> {
         let offset = (f32x16::splat(simd, rows.shift) - half) - (low - before);
         let e = rows.count.simd_gt(0).select(e, f32x16::splat(simd, NOTHING));
         let weights = [self.pair(simd, e, offset), self.pair(simd, e, offset + 2.0)];
-        // After the masks, every sum here is an index of a texel, and fits 31 bits.
-        let line = (rows.y & level.mask[1]) * (level.stride as i32) - level.base;
-        let x = (before.to_int::<i32x16<S>>() + rows.x) & level.mask[0];
+        let x = before.to_int::<i32x16<S>>() + rows.x;
+        let at = level.indices(simd, [x, rows.y], QUAD);
         rows.j += 1.0;
         rows.y += 1;
         rows.count -= 1;
-        (weights, line + x)
+        (weights, at)
     }
 
     /// The weights of two texels side by side, the first of which lies so far from the middle of its row:

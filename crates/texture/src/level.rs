@@ -2,6 +2,7 @@ use crate::memory::Memory;
 use crate::pyramid::plan::Span;
 use crate::texel::{Cell, STEP, Texel, color, of_color};
 use crate::{TextureError, Wrap};
+use fearless_simd::{Simd, i32x16, mask32x16, prelude::*};
 use scumble_pixel::ImageView;
 
 /// One level, or a part of it: rows of premultiplied RGBA in the working space, [`stride`] texels from
@@ -53,6 +54,9 @@ pub(crate) struct Frame {
     pub(crate) last: [i32; 2],
     /// Whether beyond the level there is nothing but the texels at its edge, or one colour.
     pub(crate) ends: bool,
+    /// Whether it goes on beyond the apron as in its outermost texels, so that those can be read instead
+    /// of any that lie farther out.
+    pub(crate) even: bool,
 }
 
 /// The largest side of a texture, in texels.
@@ -153,6 +157,7 @@ impl Level {
         }
         let Self { width, height, .. } = *self;
         let short = self.frame.low[0] < self.frame.high[0];
+        self.frame.even = short && (wrap == Wrap::Clamp || self.frame.ends && self.is_whole());
         let even = width.is_power_of_two() && height.is_power_of_two();
         if wrap == Wrap::Repeat && short && even && self.is_whole() {
             self.mask = [width, height].map(|n| n as i32 - 1);
@@ -229,6 +234,41 @@ impl Level {
             & (y0 >= rows.start as i32 - apron)
             & (x1 < columns.end as i32 + apron)
             & (y1 < rows.end as i32 + apron)
+    }
+
+    /// Whether rectangles of so many columns and rows of texels from (x, y) on can be read in place.
+    #[inline(always)]
+    pub(crate) fn reads<S: Simd>(
+        &self,
+        simd: S,
+        [x, y]: [i32x16<S>; 2],
+        [columns, rows]: [i32; 2],
+    ) -> mask32x16<S> {
+        let Frame { low, high, even, .. } = self.frame;
+        if even {
+            return mask32x16::from_bitmask(simd, u64::MAX);
+        }
+        x.simd_ge(low[0])
+            & x.simd_le(high[0].saturating_sub(columns - 1))
+            & y.simd_ge(low[1])
+            & y.simd_le(high[1].saturating_sub(rows - 1))
+    }
+
+    /// The indices of their first texels, or of those that are the same; where they can not be read,
+    /// something of no meaning.
+    #[inline(always)]
+    pub(crate) fn indices<S: Simd>(
+        &self,
+        simd: S,
+        [x, y]: [i32x16<S>; 2],
+        [columns, rows]: [i32; 2],
+    ) -> i32x16<S> {
+        let all = |v: i32| i32x16::splat(simd, v);
+        let Frame { low, high, .. } = self.frame;
+        let x = x.max(all(low[0])).min(all(high[0].saturating_sub(columns - 1)));
+        let y = y.max(all(low[1])).min(all(high[1].saturating_sub(rows - 1)));
+        // After the masks, every sum here is an index of a texel, and fits 31 bits.
+        (y & self.mask[1]) * (self.stride as i32) + (x & self.mask[0]) - self.base
     }
 
     /// The same to write to, if they are kept.

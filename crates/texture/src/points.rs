@@ -224,18 +224,13 @@ impl<S: Simd, P: Points> Batch<'_, S, P> {
     /// The colours in one level, in its unit.
     #[inline(always)]
     fn in_level(&self, level: &Level, wanted: u64) -> Colors {
-        let (simd, frame) = (self.simd, &level.frame);
-        let [su, sv] = frame.scale;
+        let simd = self.simd;
+        let [su, sv] = level.frame.scale;
         let (x0, fx) = place(self.spots.u, su, P::SHIFT);
         let (y0, fy) = place(self.spots.v, sv, P::SHIFT);
-        let ([low_x, low_y], [high_x, high_y]) = (frame.low, frame.high);
-        let inside = x0.simd_ge(low_x)
-            & x0.simd_le(high_x.saturating_sub(P::SIDE - 1))
-            & y0.simd_ge(low_y)
-            & y0.simd_le(high_y.saturating_sub(P::SIDE - 1));
-        // After the masks, every sum here is an index of a texel, and fits 31 bits.
-        let at = (y0 & level.mask[1]) * (level.stride as i32) + (x0 & level.mask[0]) - level.base;
+        let inside = level.reads(simd, [x0, y0], [P::SIDE; 2]);
         let here = inside & mask32x16::from_bitmask(simd, wanted);
+        let at = level.indices(simd, [x0, y0], [P::SIDE; 2]);
         let at = here.select(at, i32x16::splat(simd, 0)).to_array();
         let rest = [fx.to_array(), fy.to_array()];
         let mut colors = if level.is_float() {

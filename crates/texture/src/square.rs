@@ -98,19 +98,23 @@ impl Grid {
     #[inline(always)]
     fn mean(&self, t: &Texture, level: &Level) -> [f32; 4] {
         let [u, v] = self.middle;
-        let about = place::bilinear(level, t.wrap, u + 0.5, v + 0.5);
         let [x0, y0] = [u, v].map(floor);
         let rest = [(u - x0) as f32, (v - y0) as f32];
-        let sum = if !level.is_float() && self.inside(level, [x0, y0]) {
+        if !level.is_float() && self.inside(level, [x0, y0]) {
             let first = level.index(x0 as i32, y0 as i32);
-            let scale = about.map(|v| v * (1.0 / STEP));
-            self.sum(rest, scale, |[u, v]| in_place(level, first, u, v)).map(|v| v * STEP)
-        } else {
-            self.sum(rest, about, |[u, v]| {
-                let (u, v) = (f64::from(u) + x0 + 0.5, f64::from(v) + y0 + 0.5);
-                place::bilinear(level, t.wrap, u, v)
-            })
-        };
+            return self.about(rest, |[u, v]| in_place(level, first, u, v)).map(|v| v * STEP);
+        }
+        self.about(rest, |[u, v]| {
+            let (u, v) = (f64::from(u) + x0 + 0.5, f64::from(v) + y0 + 0.5);
+            place::bilinear(level, t.wrap, u, v)
+        })
+    }
+
+    /// The mean of a surface, whose places are given from the texel in the middle.
+    #[inline(always)]
+    fn about(&self, middle: [f32; 2], surface: impl Fn([f32; 2]) -> [f32; 4]) -> [f32; 4] {
+        let about = surface(middle);
+        let sum = self.sum(middle, about, surface);
         let [across, down] = self.count;
         let share = 1.0 / (across as f32 * down as f32);
         core::array::from_fn(|c| about[c] + sum[c] * share)

@@ -6,6 +6,7 @@ mod common;
 
 use common::{grey, noise};
 use scumble_geometry::Matrix2;
+use scumble_pixel::Image;
 use scumble_texture::{
     Footprint, Kernel, LevelMode, Magnify, PixelFilter, RadialFilter, Sampler, Separable, Texture,
     TextureOptions, Wrap,
@@ -217,5 +218,22 @@ fn taps_are_the_integral_over_the_bilinear_surface() {
         let (ellipse, taps) = (of(Magnify::None), of(Magnify::Taps));
         println!("{major}: ellipse {ellipse:.1}, taps {taps:.1} dB");
         assert!(taps > ellipse + gain && taps > bar, "{major}: {ellipse} {taps}");
+    }
+}
+
+#[test]
+fn a_square_over_one_colour_is_that_colour() {
+    for texel in [[0, 82, 0, 189], [7, 130, 251, 255], [1, 2, 3, 97]] {
+        let image = Image::from_fn(6, 5, |_, _| texel).unwrap();
+        let options = TextureOptions { wrap: Wrap::Repeat, ..TextureOptions::default() };
+        let t = Texture::new(image.view(), &options).unwrap();
+        let nearest = Sampler::DEFAULT.with(PixelFilter::Nearest, LevelMode::Zero);
+        let one = t.sample(&Footprint::point(0.5, 0.5), &nearest);
+        for level in [LevelMode::Zero, LevelMode::Nearest, LevelMode::Linear, LevelMode::Auto] {
+            let s = Sampler { kernel: Kernel::Box, level, ..Sampler::DEFAULT };
+            for (u, v) in [(0.0, 0.0), (1.3, 2.7), (5.9, 4.2)] {
+                assert_eq!(t.sample(&Footprint::point(u, v), &s), one, "{level:?} {u} {v}");
+            }
+        }
     }
 }
