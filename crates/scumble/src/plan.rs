@@ -278,6 +278,8 @@ impl<'a> Planner<'a> {
         }
     }
 
+    // Inlined, or four numbers would be written and read again as one, which has to wait for them.
+    #[inline(always)]
     fn import(&self, color: Straight) -> Premul {
         self.settings.space.import(color)
     }

@@ -7,7 +7,7 @@ use crate::strips::Wanted;
 use crate::{Antialias, Settings};
 use scumble_coverage::{AreaSink, AreaStrip, Cover, Scratch, Sink, hairline};
 use scumble_framebuffer::{Gradient, Inlay, Palette, Tile, Visibility, encode_row};
-use scumble_geometry::IntRect;
+use scumble_geometry::{IntRect, Plane};
 use scumble_pixel::Premul;
 
 /// What a worker keeps from tile to tile, so that nothing is allocated in the steady state.
@@ -131,8 +131,16 @@ impl Job<'_> {
 
     /// The colours of the background and of primitives, each of which changes evenly.
     fn gradients(&self, rect: IntRect, locals: &[Local<'_>]) -> Vec<Gradient> {
-        let of = |local: &Local<'_>| local.draw.paint.gradient((rect.x0, rect.y0));
-        std::iter::once(Gradient::constant(self.background)).chain(locals.iter().map(of)).collect()
+        // They lie all over memory. Looked at with no work in between, many are on their way at once.
+        for local in locals {
+            if let Paint::Gouraud(ramp) = &local.draw.paint {
+                std::hint::black_box(ramp.plane().map(Plane::pixel));
+            }
+        }
+        let mut gradients = Vec::with_capacity(1 + locals.len());
+        gradients.push(Gradient::constant(self.background));
+        gradients.extend(locals.iter().map(|l| l.draw.paint.gradient((rect.x0, rect.y0))));
+        gradients
     }
 
     /// The colours of the background and of primitives that have but one.
