@@ -197,11 +197,11 @@ impl Visibility {
         let level = self.level.0;
         let Some((mut rows, columns)) = self.square(x, y) else { return };
         let within = u32::MAX >> (GROUP * (SIDE - columns));
-        let (samples, key) = (samples.map(|row| row & within), key.min(Self::MAX_KEY));
+        let key = key.min(Self::MAX_KEY);
         #[cfg(feature = "std")]
-        rows.cover_by(level, &samples, key);
+        rows.cover_by(level, samples, within, key);
         #[cfg(not(feature = "std"))]
-        rows.cover(&samples, key);
+        rows.cover(samples, within, key);
     }
 
     /// The tile from a pixel on, and how many of the eight columns from there are in it.
@@ -254,7 +254,7 @@ impl Visibility {
         }
         for (first, (keys, out)) in (0..).step_by(64).zip(keys.chunks(64).zip(out.chunks_mut(64))) {
             let mut mixed = mixed_bits(keys, out.len());
-            let mut colors = [Premul::TRANSPARENT; 64];
+            let mut colors = [PADDING; 64];
             let (mut rest, mut count) = (mixed, 0);
             while rest != 0 {
                 colors[count] = self.mix(start + first + rest.trailing_zeros() as usize, palette);
@@ -262,7 +262,7 @@ impl Visibility {
                 count += 1;
             }
             let mut codes = [[0; 4]; 64];
-            palette.space().export_row(&colors[..count], &mut codes);
+            palette.space().export_row(padded(&colors, count), &mut codes);
             for code in &codes[..count] {
                 out[mixed.trailing_zeros() as usize] = *code;
                 mixed &= mixed - 1;
@@ -331,6 +331,17 @@ impl Visibility {
             Some(Seen::Whole { x: first, len, key })
         })
     }
+}
+
+/// What stands behind colours that are encoded together: opaque, so that it does not ask for more
+/// than they do.
+const PADDING: Premul = Premul([0.0, 0.0, 0.0, 1.0]);
+
+/// The first `count` colours, and those behind them that make it whole vectors: quicker to encode than
+/// an odd number.
+#[inline(always)]
+fn padded(colors: &[Premul; 64], count: usize) -> &[Premul] {
+    &colors[..count.next_multiple_of(16).min(64)]
 }
 
 /// Which of the first pixels are mixed: of at most 64, and at most `room`. As bits, since whether a
