@@ -247,7 +247,9 @@ impl<S: Simd> Square for Parts<S> {
         let [e0, e1, e2] = &self.ramp;
         let mut left = [e0[0] + first[0], e1[0] + first[1], e2[0] + first[2]];
         let mut right = [e0[1] + first[0], e1[1] + first[1], e2[1] + first[2]];
-        let (mut rows, mut some) = ([0; SIDE as usize], 0);
+        // Twice as many as there can be: of eight, the compiler would make eight pieces of code, and keep
+        // for each what it adds to the first. There are not enough registers for that.
+        let (mut rows, mut some) = ([0; 2 * SIDE as usize], 0);
         for row in rows.iter_mut().take((rect.y1 - rect.y0) as usize) {
             // Negative as soon as one of them is.
             let (l, r) = (left[0] | left[1] | left[2], right[0] | right[1] | right[2]);
@@ -257,8 +259,10 @@ impl<S: Simd> Square for Parts<S> {
             left = [left[0] + down[0], left[1] + down[1], left[2] + down[2]];
             right = [right[0] + down[0], right[1] + down[1], right[2] + down[2]];
         }
-        if some != 0 {
-            sink.parts(rect.x0, rect.y0, &rows);
+        if some != 0
+            && let Some(rows) = rows.first_chunk()
+        {
+            sink.parts(rect.x0, rect.y0, rows);
         }
     }
 }
