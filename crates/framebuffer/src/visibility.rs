@@ -4,7 +4,7 @@ use crate::level::Best;
 use crate::samples::{mean, mean_of, mean4};
 use crate::stretch::fill_keys;
 use alloc::vec::Vec;
-use scumble_pixel::Premul;
+use scumble_pixel::{Premul, WorkingSpace};
 use squares::{Rows, SIDE};
 
 /// Which surface is seen in each sample of a tile: a number, the *key*, in place of a colour.
@@ -253,20 +253,8 @@ impl Visibility {
             return;
         }
         for (first, (keys, out)) in (0..).step_by(64).zip(keys.chunks(64).zip(out.chunks_mut(64))) {
-            let mut mixed = mixed_bits(keys, out.len());
-            let mut colors = [PADDING; 64];
-            let (mut rest, mut count) = (mixed, 0);
-            while rest != 0 {
-                colors[count] = self.mix(start + first + rest.trailing_zeros() as usize, palette);
-                rest &= rest - 1;
-                count += 1;
-            }
-            let mut codes = [[0; 4]; 64];
-            palette.space().export_row(padded(&colors, count), &mut codes);
-            for code in &codes[..count] {
-                out[mixed.trailing_zeros() as usize] = *code;
-                mixed &= mixed - 1;
-            }
+            let mixed = mixed_bits(keys, out.len());
+            encode_mixed(mixed, palette.space(), out, |x| self.mix(start + first + x, palette));
         }
     }
 
@@ -333,15 +321,32 @@ impl Visibility {
     }
 }
 
-/// What stands behind colours that are encoded together: opaque, so that it does not ask for more
-/// than they do.
-const PADDING: Premul = Premul([0.0, 0.0, 0.0, 1.0]);
+/// Mixed pixels that are encoded together: whole vectors of opaque ones are quickest.
+const TOGETHER: usize = 16;
 
-/// The first `count` colours, and those behind them that make it whole vectors: quicker to encode than
-/// an odd number.
+/// Encodes the pixels of `mixed`, of which `color` tells what they look like.
 #[inline(always)]
-fn padded(colors: &[Premul; 64], count: usize) -> &[Premul] {
-    &colors[..count.next_multiple_of(16).min(64)]
+fn encode_mixed(
+    mut mixed: u64,
+    space: WorkingSpace,
+    codes: &mut [[u8; 4]],
+    mut color: impl FnMut(usize) -> Premul,
+) {
+    while mixed != 0 {
+        let mut colors = [Premul([0.0, 0.0, 0.0, 1.0]); TOGETHER];
+        let (mut rest, mut count) = (mixed, 0);
+        while rest != 0 && count < TOGETHER {
+            colors[count] = color(rest.trailing_zeros() as usize);
+            rest &= rest - 1;
+            count += 1;
+        }
+        let mut found = [[0; 4]; TOGETHER];
+        space.export_row(&colors, &mut found);
+        for code in &found[..count] {
+            codes[mixed.trailing_zeros() as usize] = *code;
+            mixed &= mixed - 1;
+        }
+    }
 }
 
 /// Which of the first pixels are mixed: of at most 64, and at most `room`. As bits, since whether a

@@ -1,7 +1,7 @@
 //! Rows of colours that change evenly: a stretch of one key at a time, evaluated and encoded in the
 //! same go, sixteen pixels side by side.
 
-use super::{GROUP, PADDING, Visibility, mixed_bits, padded};
+use super::{GROUP, Visibility, encode_mixed, mixed_bits};
 use crate::Gradient;
 use crate::samples::{mean, mean4};
 #[cfg(feature = "std")]
@@ -94,7 +94,7 @@ impl Visibility {
                 by.encode(row, keys[x], (first + x) as u32, &mut codes[x..end + LANES]);
             }
             if mixed != 0 {
-                self.encode_mixed(row, by, (start + first, first), mixed, &mut codes);
+                self.encode_means(row, by, (start + first, first), mixed, &mut codes);
             }
             out[..len].copy_from_slice(&codes[..len]);
         }
@@ -102,41 +102,27 @@ impl Visibility {
 
     /// The mixed ones of up to 64 pixels, the first of which has a place in the tile and a column.
     #[inline(always)]
-    fn encode_mixed(
+    fn encode_means(
         &self,
         row: &Row<'_>,
         by: impl Stretches,
         (start, first): (usize, usize),
-        mut mixed: u64,
+        mixed: u64,
         codes: &mut Codes,
     ) {
-        let mut colors = [PADDING; WORD];
-        let (mut rest, mut count) = (mixed, 0);
-        // The most common number of samples deserves a way of its own.
-        let four = self.groups == 1 && self.samples == GROUP;
-        while rest != 0 && four {
-            let place = rest.trailing_zeros() as usize;
-            rest &= rest - 1;
-            colors[count] = by.mean(row, self.mixed[start + place], (first + place) as u32);
-            count += 1;
+        if self.groups == 1 && self.samples == GROUP {
+            // The most common number deserves a way of its own.
+            let mean = |x: usize| by.mean(row, self.mixed[start + x], (first + x) as u32);
+            return encode_mixed(mixed, row.space, codes, mean);
         }
         let mut samples = [Premul::TRANSPARENT; 64];
-        while rest != 0 {
-            let place = rest.trailing_zeros() as usize;
-            rest &= rest - 1;
-            let keys = self.samples_of(start + place);
+        encode_mixed(mixed, row.space, codes, |x| {
+            let keys = self.samples_of(start + x);
             for (sample, &key) in samples.iter_mut().zip(keys) {
-                *sample = row.color(key, (first + place) as u32);
+                *sample = row.color(key, (first + x) as u32);
             }
-            colors[count] = mean(&samples[..keys.len()]);
-            count += 1;
-        }
-        let mut found = [[0; 4]; WORD];
-        row.space.export_row(padded(&colors, count), &mut found);
-        for code in &found[..count] {
-            codes[mixed.trailing_zeros() as usize] = *code;
-            mixed &= mixed - 1;
-        }
+            mean(&samples[..keys.len()])
+        });
     }
 }
 
