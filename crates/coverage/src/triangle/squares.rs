@@ -62,63 +62,51 @@ fn walk<S: Simd>(
     sink: &mut impl Sink,
 ) {
     if region.x1 - region.x0 <= SIDE && region.y1 - region.y0 <= SIDE {
-        return square.find(region, first(&corner(edges, region.x0, region.y0)), sink);
+        return square.find(region, first(&corners(edges, region.x0, region.y0)), sink);
     }
     let mut x0 = region.x0;
     while x0 < region.x1 {
         let x1 = region.x1.min(x0 + ROW * SIDE);
-        column(simd, square, edges, IntRect { x0, x1, ..region }, pattern, sink);
+        let region = IntRect { x0, x1, ..region };
+        let mut corner = corners(edges, region.x0, region.y0);
+        let mut tests = [
+            Test::new(simd, &edges[0], corner[0], pattern),
+            Test::new(simd, &edges[1], corner[1], pattern),
+            Test::new(simd, &edges[2], corner[2], pattern),
+        ];
+        let within = (1u32 << ((region.x1 - region.x0 + SIDE - 1) / SIDE)) - 1;
+        let mut y0 = region.y0;
+        while y0 < region.y1 {
+            let row = IntRect { y0, y1: region.y1.min(y0 + SIDE), ..region };
+            let (some, all) = squares(simd, &tests);
+            let (mut some, all) = (some & !all & within, all & within);
+            while some != 0 {
+                let place = some.trailing_zeros() as i32;
+                some &= some - 1;
+                let x = row.x0 + place * SIDE;
+                let along = |k: usize| corner[k] + edges[k].a * i64::from(place * SIDE * 256);
+                let part = IntRect { x0: x, x1: row.x1.min(x + SIDE), ..row };
+                square.find(part, first(&[along(0), along(1), along(2)]), sink);
+            }
+            if all != 0 {
+                // Those of a row are one stretch: a triangle has no holes.
+                let from = row.x0 + all.trailing_zeros() as i32 * SIDE;
+                let to = row.x0 + (32 - all.leading_zeros()) as i32 * SIDE;
+                sink.block(IntRect { x0: from, x1: to.min(row.x1), ..row });
+            }
+            for ((corner, test), edge) in corner.iter_mut().zip(&mut tests).zip(edges) {
+                *corner += edge.b * i64::from(SIDE * 256);
+                test.step(simd);
+            }
+            y0 += SIDE;
+        }
         x0 = x1;
-    }
-}
-
-/// A region no wider than a row of squares, row by row.
-#[inline(always)]
-fn column<S: Simd>(
-    simd: S,
-    square: &impl Square,
-    edges: &[Edge; 3],
-    region: IntRect,
-    pattern: &SamplePattern,
-    sink: &mut impl Sink,
-) {
-    let mut corner = corner(edges, region.x0, region.y0);
-    let mut tests = [
-        Test::new(simd, &edges[0], corner[0], pattern),
-        Test::new(simd, &edges[1], corner[1], pattern),
-        Test::new(simd, &edges[2], corner[2], pattern),
-    ];
-    let within = (1u32 << ((region.x1 - region.x0 + SIDE - 1) / SIDE)) - 1;
-    let mut y0 = region.y0;
-    while y0 < region.y1 {
-        let row = IntRect { y0, y1: region.y1.min(y0 + SIDE), ..region };
-        let (some, all) = squares(simd, &tests);
-        let (mut some, all) = (some & !all & within, all & within);
-        while some != 0 {
-            let place = some.trailing_zeros() as i32;
-            some &= some - 1;
-            let x = row.x0 + place * SIDE;
-            let along = |k: usize| corner[k] + edges[k].a * i64::from(place * SIDE * 256);
-            let part = IntRect { x0: x, x1: row.x1.min(x + SIDE), ..row };
-            square.find(part, first(&[along(0), along(1), along(2)]), sink);
-        }
-        if all != 0 {
-            // Those of a row are one stretch: a triangle has no holes.
-            let from = row.x0 + all.trailing_zeros() as i32 * SIDE;
-            let to = row.x0 + (32 - all.leading_zeros()) as i32 * SIDE;
-            sink.block(IntRect { x0: from, x1: to.min(row.x1), ..row });
-        }
-        for ((corner, test), edge) in corner.iter_mut().zip(&mut tests).zip(edges) {
-            *corner += edge.b * i64::from(SIDE * 256);
-            test.step(simd);
-        }
-        y0 += SIDE;
     }
 }
 
 /// Each edge at the top left of a pixel.
 #[inline(always)]
-fn corner(edges: &[Edge; 3], x: i32, y: i32) -> [i64; 3] {
+fn corners(edges: &[Edge; 3], x: i32, y: i32) -> [i64; 3] {
     let (x, y) = (i64::from(x) << 8, i64::from(y) << 8);
     [edges[0].at(x, y), edges[1].at(x, y), edges[2].at(x, y)]
 }
