@@ -4,7 +4,7 @@ use crate::level::Best;
 use crate::samples::{mean, mean_of, mean4};
 use crate::stretch::fill_keys;
 use alloc::vec::Vec;
-use scumble_pixel::Premul;
+use scumble_pixel::{Premul, WorkingSpace};
 use squares::{Rows, SIDE};
 
 /// Which surface is seen in each sample of a tile: a number, the *key*, in place of a colour.
@@ -197,11 +197,11 @@ impl Visibility {
         let level = self.level.0;
         let Some((mut rows, columns)) = self.square(x, y) else { return };
         let within = u32::MAX >> (GROUP * (SIDE - columns));
-        let (samples, key) = (samples.map(|row| row & within), key.min(Self::MAX_KEY));
+        let key = key.min(Self::MAX_KEY);
         #[cfg(feature = "std")]
-        rows.cover_by(level, &samples, key);
+        rows.cover_by(level, samples, within, key);
         #[cfg(not(feature = "std"))]
-        rows.cover(&samples, key);
+        rows.cover(samples, within, key);
     }
 
     /// The tile from a pixel on, and how many of the eight columns from there are in it.
@@ -253,20 +253,8 @@ impl Visibility {
             return;
         }
         for (first, (keys, out)) in (0..).step_by(64).zip(keys.chunks(64).zip(out.chunks_mut(64))) {
-            let mut mixed = mixed_bits(keys, out.len());
-            let mut colors = [Premul::TRANSPARENT; 64];
-            let (mut rest, mut count) = (mixed, 0);
-            while rest != 0 {
-                colors[count] = self.mix(start + first + rest.trailing_zeros() as usize, palette);
-                rest &= rest - 1;
-                count += 1;
-            }
-            let mut codes = [[0; 4]; 64];
-            palette.space().export_row(&colors[..count], &mut codes);
-            for code in &codes[..count] {
-                out[mixed.trailing_zeros() as usize] = *code;
-                mixed &= mixed - 1;
-            }
+            let mixed = mixed_bits(keys, out.len());
+            encode_mixed(mixed, palette.space(), out, |x| self.mix(start + first + x, palette));
         }
     }
 
@@ -330,6 +318,34 @@ impl Visibility {
             x += len;
             Some(Seen::Whole { x: first, len, key })
         })
+    }
+}
+
+/// Mixed pixels that are encoded together: whole vectors of opaque ones are quickest.
+const TOGETHER: usize = 16;
+
+/// Encodes the pixels of `mixed`, of which `color` tells what they look like.
+#[inline(always)]
+fn encode_mixed(
+    mut mixed: u64,
+    space: WorkingSpace,
+    codes: &mut [[u8; 4]],
+    mut color: impl FnMut(usize) -> Premul,
+) {
+    while mixed != 0 {
+        let mut colors = [Premul([0.0, 0.0, 0.0, 1.0]); TOGETHER];
+        let (mut rest, mut count) = (mixed, 0);
+        while rest != 0 && count < TOGETHER {
+            colors[count] = color(rest.trailing_zeros() as usize);
+            rest &= rest - 1;
+            count += 1;
+        }
+        let mut found = [[0; 4]; TOGETHER];
+        space.export_row(&colors, &mut found);
+        for code in &found[..count] {
+            codes[mixed.trailing_zeros() as usize] = *code;
+            mixed &= mixed - 1;
+        }
     }
 }
 

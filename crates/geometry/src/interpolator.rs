@@ -47,14 +47,13 @@ impl Interpolator {
         }
         let w = positions[0].z;
         let affine = w > 0.0 && positions.iter().all(|p| p.z == w);
-        let local = positions.map(|p| {
-            if affine {
-                (p.truncate() / w - origin).extend(1.0)
-            } else {
-                (p.truncate() - origin * p.z).extend(p.z)
-            }
-        });
-        let rows = inverse_rows(local).ok_or(GeometryError::Singular)?;
+        let rows = if affine {
+            let [_, p, q] = positions.map(|p| p.truncate() / w - origin);
+            affine_rows(p, q)
+        } else {
+            inverse_rows(positions.map(|p| (p.truncate() - origin * p.z).extend(p.z)))
+        };
+        let rows = rows.ok_or(GeometryError::Singular)?;
         let sum = if affine { DVec3::Z } else { rows[0] + rows[1] + rows[2] };
         Ok(Self { rows, sum, origin })
     }
@@ -119,5 +118,17 @@ fn inverse_rows(columns: [DVec3; 3]) -> Option<[DVec3; 3]> {
     let cross = [c1.cross(c2), c2.cross(c0), c0.cross(c1)];
     let det = c0.dot(cross[0]);
     let rows = cross.map(|row| row / det / units);
+    (det != 0.0 && rows.iter().all(|r| r.is_finite())).then_some(rows)
+}
+
+/// [`inverse_rows`] of (0, 0, 1), (p, 1) and (q, 1): the numbers that come of it, without what is
+/// multiplied by 0 and by 1.
+fn affine_rows(p: DVec2, q: DVec2) -> Option<[DVec3; 3]> {
+    let size = p.abs().max(q.abs()).max_element();
+    let (p, q) = (p / size, q / size);
+    let det = p.x * q.y - q.x * p.y;
+    let row = |v: DVec2, z: f64| (v / det / size).extend(z);
+    let edge = q - p;
+    let rows = [row(DVec2::new(-edge.y, edge.x), 1.0), row(-q.perp(), 0.0), row(p.perp(), 0.0)];
     (det != 0.0 && rows.iter().all(|r| r.is_finite())).then_some(rows)
 }

@@ -15,8 +15,8 @@ use crate::DVec2;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane<const N: usize> {
-    /// Where it counts from: the centre of a pixel.
-    pub(crate) origin: DVec2,
+    /// The pixel from whose centre it counts.
+    pub(crate) pixel: (i32, i32),
     /// The value there.
     pub(crate) here: [f32; N],
     /// Its change per pixel along x and y.
@@ -35,14 +35,7 @@ impl<const N: usize> Plane<N> {
     #[must_use]
     pub const fn constant(value: [f32; N]) -> Self {
         let none = [0.0; N];
-        Self {
-            origin: DVec2::splat(0.5),
-            here: value,
-            right: none,
-            below: none,
-            low: value,
-            high: value,
-        }
+        Self { pixel: (0, 0), here: value, right: none, below: none, low: value, high: value }
     }
 
     /// Whether no sum overflows over all pixels there can be.
@@ -76,8 +69,7 @@ impl<const N: usize> Plane<N> {
     #[must_use]
     #[inline]
     pub fn pixel(&self) -> (i32, i32) {
-        // Whole numbers and a half.
-        ((self.origin.x - 0.5) as i32, (self.origin.y - 0.5) as i32)
+        self.pixel
     }
 
     /// The value at the centre of that pixel.
@@ -118,7 +110,7 @@ impl<const N: usize> Plane<N> {
     /// What a row begins from.
     #[inline(always)]
     pub(crate) fn left(&self, y: f64) -> [f32; N] {
-        let y = (y - self.origin.y) as f32;
+        let y = (y - (f64::from(self.pixel.1) + 0.5)) as f32;
         let mut left = self.here;
         for (left, below) in left.iter_mut().zip(self.below) {
             *left += below * y;
@@ -129,7 +121,7 @@ impl<const N: usize> Plane<N> {
     /// The value in a row that begins from `left`.
     #[inline(always)]
     pub(crate) fn along(&self, left: [f32; N], x: f64) -> [f32; N] {
-        let x = (x - self.origin.x) as f32;
+        let x = (x - (f64::from(self.pixel.0) + 0.5)) as f32;
         let mut value = left;
         for (value, right) in value.iter_mut().zip(self.right) {
             *value += right * x;

@@ -55,14 +55,16 @@ impl<const N: usize> Ramp<N> {
         let high = core::array::from_fn(|i| a[i].max(b[i]).max(c[i]));
         let values = values.map(|value| value.map(f64::from));
         // The centre of a pixel, so that from others it is whole numbers away.
-        let origin = (positions[0].truncate() / positions[0].z).floor() + 0.5;
+        let pixel = (positions[0].truncate() / positions[0].z).floor();
+        let origin = pixel + 0.5;
         let is_near = origin.abs().max_element() <= FARTHEST;
         let plane = (is_near && interpolator.is_affine()).then(|| {
             let at = |p| interpolator.interpolate(p, &values);
             let (here, right, below) = (at(origin), at(origin + DVec2::X), at(origin + DVec2::Y));
             let slope = |to: [f64; N]| core::array::from_fn(|i| (to[i] - here[i]) as f32);
             let (right, below) = (slope(right), slope(below));
-            Plane { origin, here: here.map(|v| v as f32), right, below, low, high }
+            let pixel = (pixel.x as i32, pixel.y as i32);
+            Plane { pixel, here: here.map(|v| v as f32), right, below, low, high }
         });
         let other = || Kind::Other(Box::new(Other { interpolator, values, low, high }));
         Ok(Self { kind: plane.filter(Plane::is_tame).map_or_else(other, Kind::Plane) })

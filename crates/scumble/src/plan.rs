@@ -278,6 +278,8 @@ impl<'a> Planner<'a> {
         }
     }
 
+    // Inlined, or four numbers would be written and read again as one, which has to wait for them.
+    #[inline(always)]
     fn import(&self, color: Straight) -> Premul {
         self.settings.space.import(color)
     }
@@ -389,13 +391,9 @@ impl<'a> Planner<'a> {
         }
         let Some(size) = self.texture_size(quad.image) else { return };
         let Ok(from_canvas) = to_canvas.inverse() else { return };
-        let source = quad.source;
-        let texels = Rect::new(
-            source.x0 * size.x,
-            source.y0 * size.y,
-            source.x1 * size.x,
-            source.y1 * size.y,
-        );
+        let [x0, x1] = [quad.source.x0, quad.source.x1].map(|x| x * size.x);
+        let [y0, y1] = [quad.source.y0, quad.source.y1].map(|y| y * size.y);
+        let texels = Rect::new(x0, y0, x1, y1);
         let map = Homography::from(Affine::rect_to_rect(quad.rect, texels)) * from_canvas;
         let sampler = if quad.pixelated {
             Sampler { pixel: PixelFilter::Nearest, level: LevelMode::Zero, ..self.settings.sampler }
@@ -411,7 +409,7 @@ impl<'a> Planner<'a> {
         let to_canvas = self.canvas_map(&line.transform);
         let ends = [line.from, line.to].map(|p| to_canvas.project_homogeneous(p));
         if let Some(ends) = clip_segment(ends, to_canvas.near_w()) {
-            self.hairline_on_canvas(ends.map(divide), line.color);
+            self.hairline_on_canvas(ends.map(|p| p.truncate() / p.z), line.color);
         }
     }
 
@@ -479,8 +477,4 @@ fn triangle(path: &Path) -> Option<[DVec2; 3]> {
         }
         _ => None,
     }
-}
-
-fn divide(p: DVec3) -> DVec2 {
-    DVec2::new(p.x / p.z, p.y / p.z)
 }

@@ -131,35 +131,6 @@ impl Reach {
         (within * sum + self.height * beyond + ROUNDER) - ROUNDER
     }
 
-    /// What lies right of the edge in pixel `x`, if that is the only one that it touches: the same to
-    /// the bit as by [`Self::right`].
-    #[inline(always)]
-    pub(crate) fn right_of_one(&self, x: f64) -> f64 {
-        let (c, all) = mirrored(self.sign, x, self.height);
-        let width = self.to - self.from;
-        let part = self.half_rise * width * width + self.height * (c + 1.0 - self.to);
-        all + self.sign * ((part + ROUNDER) - ROUNDER)
-    }
-
-    /// What lies right of the edge in the pixels `x` and `x` + 1, if it touches both and no other: the
-    /// same to the bit as by [`Self::right`].
-    #[inline(always)]
-    pub(crate) fn right_of_two(&self, x: f64) -> [f64; 2] {
-        // In the mirror the right one comes first.
-        let is_mirrored = self.sign < 0.0;
-        let (c, all) = mirrored(self.sign, if is_mirrored { x + 1.0 } else { x }, self.height);
-        let middle = smaller(larger(c + 1.0, self.from), self.to);
-        let (width, rest) = (middle - self.from, self.to - middle);
-        let beyond = smaller(larger(c + 1.0 - self.to, 0.0), 1.0);
-        let first = self.half_rise * width * width + self.height * beyond;
-        let beyond = smaller(larger(c + 2.0 - self.to, 0.0), 1.0);
-        let sum = width + (self.to - self.from);
-        let second = self.half_rise * rest * sum + self.height * beyond;
-        let part = |v: f64| all + self.sign * ((v + ROUNDER) - ROUNDER);
-        let (first, second) = (part(first), part(second));
-        if is_mirrored { [second, first] } else { [first, second] }
-    }
-
     /// What lies right of the edge in pixel `x`.
     #[cfg(test)]
     pub(crate) fn right(&self, x: f64) -> f64 {

@@ -125,18 +125,16 @@ proptest! {
     }
 
     #[test]
-    fn few_pixels_have_a_short_way(
-        (x0, y0, run, rise) in (-4 * 256..40 * 256i32, -600..256i32, -700..700i32, 1..600i32),
-    ) {
-        prop_assume!(y0 + rise > 0);
-        let reach = reach([x0, y0, x0 + run, y0 + rise]);
-        let (first, last) = touched(reach.extent(), -100, 100);
-        let x = f64::from(first);
-        if first == last {
-            prop_assert_eq!(reach.right_of_one(x), reach.right(x));
-        }
-        if first + 1 >= last {
-            prop_assert_eq!(reach.right_of_two(x), [reach.right(x), reach.right(x + 1.0)]);
+    fn what_lies_right_of_it_is_the_same_in_eights(e in edge(), first in -4..WIDTH) {
+        let reach = reach(e);
+        for weight in [1.0, -1.0] {
+            let mut found = [0.0; 8];
+            dispatch!(Level::new(), simd => {
+                eight_right(simd, first, &reach, weight).store_slice(&mut found);
+            });
+            let expected: [f64; 8] =
+                core::array::from_fn(|i| weight * reach.right(f64::from(first + i as i32)));
+            prop_assert_eq!(found, expected);
         }
     }
 }

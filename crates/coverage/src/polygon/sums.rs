@@ -115,26 +115,6 @@ impl RowSums {
         self.met.push(Met { edge: place, first, last });
         let height = ((to - from) as u64) << if winding > 0 { 0 } else { UP };
         let weight = f64::from(winding);
-        let is_within = first >= self.x0 && last < right;
-        let column = (first - self.x0) as usize;
-        if first == last && is_within {
-            self.heights[column] += height;
-            self.touched[column / 64] |= 1 << (column % 64);
-            let area = reach.right_of_one(f64::from(first));
-            self.steps[column] += weight * area;
-            self.steps[column + 1] += weight * (reach.height - area);
-            return;
-        }
-        if first + 1 == last && is_within {
-            self.heights[column] += height;
-            self.mark(column, column + 1);
-            let areas = reach.right_of_two(f64::from(first));
-            let steps = &mut self.steps[column..column + 3];
-            steps[0] += weight * areas[0];
-            steps[1] += weight * (areas[1] - areas[0]);
-            steps[2] += weight * (reach.height - areas[1]);
-            return;
-        }
         let (from_x, to_x) = (first.max(self.x0), last.min(right - 1));
         let (column, end) = ((from_x - self.x0) as usize, (to_x - self.x0) as usize);
         // What goes on beyond the right side is not known to be plain.
@@ -152,7 +132,7 @@ impl RowSums {
         }
     }
 
-    /// Adds an edge that touches several pixels.
+    /// Adds an edge that touches some pixels.
     #[inline(always)]
     fn add_long<S: Simd>(
         &mut self,
@@ -161,14 +141,14 @@ impl RowSums {
         reach: &Reach,
         weight: f64,
     ) {
-        // The area of the pixel before, and of eight more. Beyond the edge all are the same.
-        let mut areas = [0.0; 9];
+        // The last is the area of the pixel before. Beyond the edge all are the same.
+        let mut before = splat(simd, 0.0);
         for at in (column..end + 2).step_by(8) {
-            areas[0] = areas[8];
-            eight_right(simd, self.pixel(at), reach, weight).store_slice(&mut areas[1..]);
-            let rises = f64x8::from_slice(simd, &areas[1..]) - f64x8::from_slice(simd, &areas[..8]);
+            let here = eight_right(simd, self.pixel(at), reach, weight);
+            let rises = here - before.slide::<7>(here);
             let steps = &mut self.steps[at..at + 8];
             (f64x8::from_slice(simd, steps) + rises).store_slice(steps);
+            before = here;
         }
     }
 

@@ -62,56 +62,75 @@ fn walk<S: Simd>(
     sink: &mut impl Sink,
 ) {
     if region.x1 - region.x0 <= SIDE && region.y1 - region.y0 <= SIDE {
-        return square.find(region, first(edges, region), sink);
+        return square.find(region, first(&corners(edges, region.x0, region.y0)), sink);
     }
-    let tests = [
-        Test::new(simd, &edges[0], pattern),
-        Test::new(simd, &edges[1], pattern),
-        Test::new(simd, &edges[2], pattern),
-    ];
-    for y0 in (region.y0..region.y1).step_by(SIDE as usize) {
-        for x0 in (region.x0..region.x1).step_by((ROW * SIDE) as usize) {
-            let (x1, y1) = (region.x1.min(x0 + ROW * SIDE), region.y1.min(y0 + SIDE));
-            let row = IntRect { x0, y0, x1, y1 };
-            let (some, all) = squares(simd, &tests, edges, row);
-            let mut some = some & !all;
+    let mut x0 = region.x0;
+    while x0 < region.x1 {
+        let x1 = region.x1.min(x0 + ROW * SIDE);
+        let region = IntRect { x0, x1, ..region };
+        let mut corner = corners(edges, region.x0, region.y0);
+        let mut tests = [
+            Test::new(simd, &edges[0], corner[0], pattern),
+            Test::new(simd, &edges[1], corner[1], pattern),
+            Test::new(simd, &edges[2], corner[2], pattern),
+        ];
+        let within = (1u32 << ((region.x1 - region.x0 + SIDE - 1) / SIDE)) - 1;
+        let mut y0 = region.y0;
+        while y0 < region.y1 {
+            let row = IntRect { y0, y1: region.y1.min(y0 + SIDE), ..region };
+            let (some, all) = squares(simd, &tests);
+            let (mut some, all) = (some & !all & within, all & within);
             while some != 0 {
-                let x = x0 + some.trailing_zeros() as i32 * SIDE;
+                let place = some.trailing_zeros() as i32;
                 some &= some - 1;
-                let part = IntRect { x0: x, x1: x1.min(x + SIDE), ..row };
-                square.find(part, first(edges, part), sink);
+                let x = row.x0 + place * SIDE;
+                let along = |k: usize| corner[k] + edges[k].a * i64::from(place * SIDE * 256);
+                let part = IntRect { x0: x, x1: row.x1.min(x + SIDE), ..row };
+                square.find(part, first(&[along(0), along(1), along(2)]), sink);
             }
             if all != 0 {
                 // Those of a row are one stretch: a triangle has no holes.
-                let from = x0 + all.trailing_zeros() as i32 * SIDE;
-                let to = x0 + (32 - all.leading_zeros()) as i32 * SIDE;
-                sink.block(IntRect { x0: from, x1: to.min(x1), ..row });
+                let from = row.x0 + all.trailing_zeros() as i32 * SIDE;
+                let to = row.x0 + (32 - all.leading_zeros()) as i32 * SIDE;
+                sink.block(IntRect { x0: from, x1: to.min(row.x1), ..row });
             }
+            for ((corner, test), edge) in corner.iter_mut().zip(&mut tests).zip(edges) {
+                *corner += edge.b * i64::from(SIDE * 256);
+                test.step(simd);
+            }
+            y0 += SIDE;
         }
+        x0 = x1;
     }
+}
+
+/// Each edge at the top left of a pixel.
+#[inline(always)]
+fn corners(edges: &[Edge; 3], x: i32, y: i32) -> [i64; 3] {
+    let (x, y) = (i64::from(x) << 8, i64::from(y) << 8);
+    [edges[0].at(x, y), edges[1].at(x, y), edges[2].at(x, y)]
 }
 
 /// Each edge at the corner of a square, cut to what keeps its sign.
 #[inline(always)]
-fn first(edges: &[Edge; 3], rect: IntRect) -> [i32; 3] {
-    let (x, y) = (i64::from(rect.x0) << 8, i64::from(rect.y0) << 8);
-    let mut first = [0; 3];
-    for (first, edge) in first.iter_mut().zip(edges) {
-        *first = edge.at(x, y).clamp(-LIMIT, LIMIT) as i32;
-    }
-    first
+fn first(corner: &[i64; 3]) -> [i32; 3] {
+    let cut = |v: i64| v.clamp(-LIMIT, LIMIT) as i32;
+    [cut(corner[0]), cut(corner[1]), cut(corner[2])]
 }
 
 /// An edge over eight squares side by side, in f64: whole numbers below 2⁵³.
 struct Test<S: Simd> {
-    /// The most and the least of it over the samples of each square, from the corner of the first.
+    /// The most and the least of it over the samples of each square.
     high: f64x8<S>,
     low: f64x8<S>,
+    /// From a row of squares to the next.
+    down: f64,
 }
 
 impl<S: Simd> Test<S> {
+    /// `corner` is the edge's value at the corner of the first square.
     #[inline(always)]
-    fn new(simd: S, edge: &Edge, pattern: &SamplePattern) -> Self {
+    fn new(simd: S, edge: &Edge, corner: i64, pattern: &SamplePattern) -> Self {
         let [first, last] = pattern.extent().map(|p| p.map(i64::from));
         let along = |step: i64, axis: usize| {
             let ends = (step * first[axis], step * (last[axis] + i64::from(SIDE - 1) * 256));
@@ -119,25 +138,25 @@ impl<S: Simd> Test<S> {
         };
         let (x, y) = (along(edge.a, 0), along(edge.b, 1));
         let starts = f64x8::load_array(simd, SQUARES) * (edge.a as f64);
-        Self { high: starts + (x.1 + y.1) as f64, low: starts + (x.0 + y.0) as f64 }
+        let high = starts + (corner + x.1 + y.1) as f64;
+        let low = starts + (corner + x.0 + y.0) as f64;
+        Self { high, low, down: (edge.b * i64::from(SIDE * 256)) as f64 }
+    }
+
+    /// Goes on to the next row of squares.
+    #[inline(always)]
+    fn step(&mut self, simd: S) {
+        let down = f64x8::splat(simd, self.down);
+        (self.high, self.low) = (self.high + down, self.low + down);
     }
 }
 
 /// Of the squares of a row, those that may hold a sample, and those that are covered whole.
 #[inline(always)]
-fn squares<S: Simd>(simd: S, tests: &[Test<S>; 3], edges: &[Edge; 3], row: IntRect) -> (u32, u32) {
-    let (x, y) = (i64::from(row.x0) << 8, i64::from(row.y0) << 8);
-    let corner = f64x8::splat(simd, edges[0].at(x, y) as f64);
-    let (mut high, mut low) = (tests[0].high + corner, tests[0].low + corner);
-    for (test, edge) in tests[1..].iter().zip(&edges[1..]) {
-        let corner = f64x8::splat(simd, edge.at(x, y) as f64);
-        high = high.min(test.high + corner);
-        low = low.min(test.low + corner);
-    }
+fn squares<S: Simd>(simd: S, [a, b, c]: &[Test<S>; 3]) -> (u32, u32) {
     let zero = f64x8::splat(simd, 0.0);
-    let within = (1u32 << ((row.x1 - row.x0 + SIDE - 1) / SIDE)) - 1;
-    let set = |v: f64x8<S>| v.simd_ge(zero).to_bitmask() as u32 & within;
-    (set(high), set(low))
+    let set = |v: f64x8<S>| v.simd_ge(zero).to_bitmask() as u32;
+    (set(a.high.min(b.high).min(c.high)), set(a.low.min(b.low).min(c.low)))
 }
 
 /// One sample a pixel.
@@ -210,26 +229,28 @@ impl<S: Simd> Parts<S> {
 
 impl<S: Simd> Square for Parts<S> {
     #[inline(always)]
-    fn find(&self, rect: IntRect, mut first: [i32; 3], sink: &mut impl Sink) {
-        let zero = i32x16::splat(self.simd, 0);
+    fn find(&self, rect: IntRect, first: [i32; 3], sink: &mut impl Sink) {
+        let (zero, down) = (i32x16::splat(self.simd, 0), self.down);
         let columns = u32::MAX >> (4 * (SIDE - rect.x1 + rect.x0));
-        let (mut rows, mut some) = ([0; SIDE as usize], 0);
+        let [e0, e1, e2] = &self.ramp;
+        let mut left = [e0[0] + first[0], e1[0] + first[1], e2[0] + first[2]];
+        let mut right = [e0[1] + first[0], e1[1] + first[1], e2[1] + first[2]];
+        // Twice as many as there can be: of eight, the compiler would make eight pieces of code, and keep
+        // for each what it adds to the first. There are not enough registers for that.
+        let (mut rows, mut some) = ([0; 2 * SIDE as usize], 0);
         for row in rows.iter_mut().take((rect.y1 - rect.y0) as usize) {
-            let [e0, e1, e2] = &self.ramp;
             // Negative as soon as one of them is.
-            let left = (e0[0] + first[0]) | (e1[0] + first[1]) | (e2[0] + first[2]);
-            let right = (e0[1] + first[0]) | (e1[1] + first[1]) | (e2[1] + first[2]);
-            let left = left.simd_lt(zero).to_bitmask() as u32;
-            let right = right.simd_lt(zero).to_bitmask() as u32;
-            *row = !(left | right << 16) & columns;
+            let (l, r) = (left[0] | left[1] | left[2], right[0] | right[1] | right[2]);
+            let (l, r) = (l.simd_lt(zero).to_bitmask() as u32, r.simd_lt(zero).to_bitmask() as u32);
+            *row = !(l | r << 16) & columns;
             some |= *row;
-            for (first, down) in first.iter_mut().zip(self.down) {
-                // Past the last row it may leave the range, where nothing asks for it.
-                *first = first.wrapping_add(down);
-            }
+            left = [left[0] + down[0], left[1] + down[1], left[2] + down[2]];
+            right = [right[0] + down[0], right[1] + down[1], right[2] + down[2]];
         }
-        if some != 0 {
-            sink.parts(rect.x0, rect.y0, &rows);
+        if some != 0
+            && let Some(rows) = rows.first_chunk()
+        {
+            sink.parts(rect.x0, rect.y0, rows);
         }
     }
 }

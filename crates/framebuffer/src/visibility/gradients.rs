@@ -1,11 +1,11 @@
 //! Rows of colours that change evenly: a stretch of one key at a time, evaluated and encoded in the
 //! same go, sixteen pixels side by side.
 
-use super::{GROUP, Visibility, mixed_bits};
+use super::{GROUP, Visibility, encode_mixed, mixed_bits};
 use crate::Gradient;
 use crate::samples::{mean, mean4};
 #[cfg(feature = "std")]
-use fearless_simd::{Simd, dispatch, f32x4, f32x16, i32x16, prelude::*, u32x16, u64x8};
+use fearless_simd::{Simd, dispatch, f32x4, f32x16, i32x16, prelude::*, u32x16};
 use scumble_pixel::{Premul, WorkingSpace};
 
 /// Pixels that are looked at together: one for each bit of a word.
@@ -17,8 +17,8 @@ const LANES: usize = 16;
 /// Room for the codes of a word.
 type Codes = [[u8; 4]; WORD + LANES];
 
-/// Where the colours of a row come from, and where they go.
-#[derive(Clone, Copy)]
+/// Where the colours of a row come from, and where they go. (It is looked at where it is: a copy would
+/// read more at once than was written at once, and so have to wait for all that was written before.)
 struct Row<'a> {
     y: u32,
     gradients: &'a [Gradient],
@@ -45,10 +45,10 @@ trait Stretches: Copy {
 
     /// The pixels from column `x` of the tile on, as many as the codes without [`LANES`] at the end,
     /// where anything may be written.
-    fn encode(self, row: Row<'_>, key: u32, x: u32, codes: &mut [[u8; 4]]);
+    fn encode(self, row: &Row<'_>, key: u32, x: u32, codes: &mut [[u8; 4]]);
 
     /// The mean of four keys' colours in column `x` of the tile.
-    fn mean(self, row: Row<'_>, keys: [u32; GROUP], x: u32) -> Premul;
+    fn mean(self, row: &Row<'_>, keys: [u32; GROUP], x: u32) -> Premul;
 }
 
 impl Visibility {
@@ -69,13 +69,13 @@ impl Visibility {
         }
         let row = Row { y, gradients, space };
         #[cfg(feature = "std")]
-        dispatch!(self.level.0, simd => self.encode_stretches(row, Vectors(simd), out));
+        dispatch!(self.level.0, simd => self.encode_stretches(&row, Vectors(simd), out));
         #[cfg(not(feature = "std"))]
-        self.encode_stretches(row, Plain, out);
+        self.encode_stretches(&row, Plain, out);
     }
 
     #[inline(always)]
-    fn encode_stretches(&self, row: Row<'_>, by: impl Stretches, out: &mut [[u8; 4]]) {
+    fn encode_stretches(&self, row: &Row<'_>, by: impl Stretches, out: &mut [[u8; 4]]) {
         let (start, keys) = self.keys(row.y);
         let mut codes: Codes = [[0; 4]; WORD + LANES];
         for (first, (keys, out)) in
@@ -94,7 +94,7 @@ impl Visibility {
                 by.encode(row, keys[x], (first + x) as u32, &mut codes[x..end + LANES]);
             }
             if mixed != 0 {
-                self.encode_mixed(row, by, (start + first, first), mixed, &mut codes);
+                self.encode_means(row, by, (start + first, first), mixed, &mut codes);
             }
             out[..len].copy_from_slice(&codes[..len]);
         }
@@ -102,38 +102,27 @@ impl Visibility {
 
     /// The mixed ones of up to 64 pixels, the first of which has a place in the tile and a column.
     #[inline(always)]
-    fn encode_mixed(
+    fn encode_means(
         &self,
-        row: Row<'_>,
+        row: &Row<'_>,
         by: impl Stretches,
         (start, first): (usize, usize),
-        mut mixed: u64,
+        mixed: u64,
         codes: &mut Codes,
     ) {
-        let mut colors = [Premul::TRANSPARENT; WORD];
+        if self.groups == 1 && self.samples == GROUP {
+            // The most common number deserves a way of its own.
+            let mean = |x: usize| by.mean(row, self.mixed[start + x], (first + x) as u32);
+            return encode_mixed(mixed, row.space, codes, mean);
+        }
         let mut samples = [Premul::TRANSPARENT; 64];
-        let (mut rest, mut count) = (mixed, 0);
-        while rest != 0 {
-            let place = rest.trailing_zeros() as usize;
-            rest &= rest - 1;
-            let (i, x) = (start + place, (first + place) as u32);
-            colors[count] = if self.groups == 1 && self.samples == GROUP {
-                by.mean(row, self.mixed[i], x)
-            } else {
-                let keys = self.samples_of(i);
-                for (sample, &key) in samples.iter_mut().zip(keys) {
-                    *sample = row.color(key, x);
-                }
-                mean(&samples[..keys.len()])
-            };
-            count += 1;
-        }
-        let mut found = [[0; 4]; WORD];
-        row.space.export_row(&colors[..count], &mut found);
-        for code in &found[..count] {
-            codes[mixed.trailing_zeros() as usize] = *code;
-            mixed &= mixed - 1;
-        }
+        encode_mixed(mixed, row.space, codes, |x| {
+            let keys = self.samples_of(start + x);
+            for (sample, &key) in samples.iter_mut().zip(keys) {
+                *sample = row.color(key, (first + x) as u32);
+            }
+            mean(&samples[..keys.len()])
+        });
     }
 }
 
@@ -148,7 +137,7 @@ impl Stretches for Plain {
     }
 
     #[inline(never)]
-    fn encode(self, row: Row<'_>, key: u32, x: u32, codes: &mut [[u8; 4]]) {
+    fn encode(self, row: &Row<'_>, key: u32, x: u32, codes: &mut [[u8; 4]]) {
         let len = codes.len() - LANES;
         let mut colors = [Premul::TRANSPARENT; WORD];
         for (color, x) in colors[..len].iter_mut().zip(x..) {
@@ -157,7 +146,7 @@ impl Stretches for Plain {
         row.space.export_row(&colors[..len], &mut codes[..len]);
     }
 
-    fn mean(self, row: Row<'_>, [a, b, c, d]: [u32; GROUP], x: u32) -> Premul {
+    fn mean(self, row: &Row<'_>, [a, b, c, d]: [u32; GROUP], x: u32) -> Premul {
         mean4([row.color(a, x), row.color(b, x), row.color(c, x), row.color(d, x)])
     }
 }
@@ -187,7 +176,7 @@ impl<S: Simd> Stretches for Vectors<S> {
     }
 
     #[inline(always)]
-    fn encode(self, row: Row<'_>, key: u32, x: u32, codes: &mut [[u8; 4]]) {
+    fn encode(self, row: &Row<'_>, key: u32, x: u32, codes: &mut [[u8; 4]]) {
         let gradient = row.gradient(key);
         if row.space != WorkingSpace::Srgb || !gradient.is_plain {
             return Plain.encode(row, key, x, codes);
@@ -206,7 +195,7 @@ impl<S: Simd> Stretches for Vectors<S> {
     }
 
     #[inline(always)]
-    fn mean(self, row: Row<'_>, [a, b, c, d]: [u32; GROUP], x: u32) -> Premul {
+    fn mean(self, row: &Row<'_>, [a, b, c, d]: [u32; GROUP], x: u32) -> Premul {
         let of = Self::color;
         let first = of(self, row, a, x);
         let (b, c, d) = (of(self, row, b, x), of(self, row, c, x), of(self, row, d, x));
@@ -221,7 +210,7 @@ impl<S: Simd> Stretches for Vectors<S> {
 impl<S: Simd> Vectors<S> {
     /// [`Gradient::at`] for a key.
     #[inline(always)]
-    fn color(self, row: Row<'_>, key: u32, x: u32) -> f32x4<S> {
+    fn color(self, row: &Row<'_>, key: u32, x: u32) -> f32x4<S> {
         let gradient = row.gradient(key);
         let columns = f32x4::splat(self.0, (x as i32).wrapping_sub(gradient.column) as f32);
         let rows = f32x4::splat(self.0, (row.y as i32).wrapping_sub(gradient.row) as f32);
@@ -273,16 +262,10 @@ impl<'a, S: Simd> Line<'a, S> {
     #[inline(always)]
     fn encode(&self, columns: i32x16<S>, codes: &mut [[u8; 4]; LANES]) {
         let columns: f32x16<S> = columns.to_float();
-        let red = self.component(0, columns);
-        let green = self.component(1, columns);
-        let blue = self.component(2, columns);
-        let [r, g, b] = [Rounded::new(red), Rounded::new(green), Rounded::new(blue)];
-        let half = f32x16::splat(self.simd, 0.5);
-        let packed = if r.off.max(g.off).max(b.off).simd_lt(half).all_true() {
-            pack(self.simd, r.code, g.code, b.code)
-        } else {
-            pack(self.simd, exact(red), exact(green), exact(blue))
-        };
+        let red = nearest(self.simd, self.component(0, columns));
+        let green = nearest(self.simd, self.component(1, columns));
+        let blue = nearest(self.simd, self.component(2, columns));
+        let packed = pack(self.simd, red, green, blue);
         for (code, packed) in codes.iter_mut().zip(packed.to_array()) {
             *code = packed.to_le_bytes();
         }
@@ -306,35 +289,35 @@ fn pack<S: Simd>(simd: S, r: u32x16<S>, g: u32x16<S>, b: u32x16<S>) -> u32x16<S>
     ((r & 0xff) | (g << 8)) | ((b << 16) | alpha)
 }
 
-/// The nearest code to each of sixteen numbers from 0 to 1.
-#[cfg(feature = "std")]
-struct Rounded<S: Simd> {
-    code: u32x16<S>,
-    /// How far it was from the number, before which there was rounding: less than one half, or the
-    /// code may be the wrong one.
-    off: f32x16<S>,
-}
-
-#[cfg(feature = "std")]
-impl<S: Simd> Rounded<S> {
-    #[inline(always)]
-    fn new(value: f32x16<S>) -> Self {
-        // 2²³: adding it leaves the nearest whole number in the low bits.
-        const ROUND: f32 = 8_388_608.0;
-        let scaled = value * 255.0;
-        let raised = scaled + ROUND;
-        Self { code: raised.bitcast(), off: (scaled - (raised - ROUND)).abs() }
-    }
-}
-
 /// [`unorm8`](scumble_pixel::unorm8) of numbers from 0 to 1, in the low bits.
 #[cfg(feature = "std")]
 #[inline(always)]
-fn exact<S: Simd>(value: f32x16<S>) -> u32x16<S> {
-    // 2⁵².
-    const ROUND: f64 = 4_503_599_627_370_496.0;
-    let (first, last) = value.widen();
-    let (first, last) = (first * 255.0 + ROUND, last * 255.0 + ROUND);
-    let (first, last): (u64x8<S>, u64x8<S>) = (first.bitcast(), last.bitcast());
-    first.narrow(last) & 0xff
+fn nearest<S: Simd>(simd: S, value: f32x16<S>) -> u32x16<S> {
+    // 2²³: adding it leaves the nearest whole number in the low bits. The product must not be rounded
+    // before that, or what is hardly more than a half could become one.
+    let round = f32x16::splat(simd, 8_388_608.0);
+    value.mul_add_precise(f32x16::splat(simd, 255.0), round).bitcast()
+}
+
+#[cfg(all(test, feature = "std"))]
+mod tests {
+    use super::*;
+    use fearless_simd::Level;
+    use scumble_pixel::unorm8;
+
+    /// Whose products with 255 an `f32` cannot tell from a half.
+    #[test]
+    fn what_is_next_to_a_half_is_rounded_right() {
+        for code in 0..255_u8 {
+            let half = (f32::from(code) + 0.5) / 255.0;
+            let near: [f32; LANES] =
+                core::array::from_fn(|i| f32::from_bits(half.to_bits() - 8 + i as u32));
+            for level in [Level::baseline(), Level::new()] {
+                let codes = dispatch!(level, simd => {
+                    nearest(simd, f32x16::load_array(simd, near)).to_array()
+                });
+                assert_eq!(codes.map(|code| code as u8), near.map(unorm8));
+            }
+        }
+    }
 }

@@ -6,7 +6,7 @@
 
 use super::{GROUP, MIXED};
 #[cfg(feature = "std")]
-use fearless_simd::{Level, Simd, dispatch, mask32x8, prelude::*, u32x4, u32x8};
+use fearless_simd::{Level, Simd, dispatch, mask32x8, mask32x16, prelude::*, u32x8, u32x16};
 
 /// Pixels along the side of a square.
 pub(super) const SIDE: usize = 8;
@@ -43,9 +43,10 @@ impl Rows<'_> {
         }
     }
 
-    /// Writes `key` to samples: bit 4·c + s of `rows[r]` is sample s in column c of row r.
-    pub(super) fn cover(&mut self, rows: &[u32; SIDE], key: u32) {
-        for (r, row) in rows.iter().enumerate() {
+    /// Writes `key` to samples: bit 4·c + s of `rows[r]`, if it is `within`, is sample s in column c of
+    /// row r.
+    pub(super) fn cover(&mut self, rows: &[u32; SIDE], within: u32, key: u32) {
+        for (r, row) in rows.iter().map(|row| row & within).enumerate() {
             let start = r * self.stride;
             let (seen, mixed) = (chunk(self.keys, start), chunk(self.mixed, start));
             let (Some(seen), Some(mixed)) = (seen, mixed) else { return };
@@ -84,17 +85,18 @@ impl Rows<'_> {
     }
 
     /// [`Self::cover`] with the instructions of a level.
-    pub(super) fn cover_by(&mut self, level: Level, rows: &[u32; SIDE], key: u32) {
-        dispatch!(level, simd => self.cover_at(simd, rows, key));
+    pub(super) fn cover_by(&mut self, level: Level, rows: &[u32; SIDE], within: u32, key: u32) {
+        dispatch!(level, simd => self.cover_at(simd, rows, within, key));
     }
 
     #[inline(always)]
-    fn cover_at<S: Simd>(&mut self, simd: S, rows: &[u32; SIDE], key: u32) {
-        let key = u32x8::splat(simd, key);
+    fn cover_at<S: Simd>(&mut self, simd: S, rows: &[u32; SIDE], within: u32, key: u32) {
         let mut start = 0;
+        // One by one, as they were written: all of them at once would have to wait for the last.
         for &row in rows {
             let (seen, mixed) = (chunk(self.keys, start), chunk(self.mixed, start));
             let (Some(seen), Some(mixed)) = (seen, mixed) else { return };
+            let row = row & within;
             if row != 0 {
                 cover_row(simd, seen, mixed, row, key);
             }
@@ -111,19 +113,31 @@ fn cover_row<S: Simd>(
     seen: &mut [u32; SIDE],
     mixed: &mut [[u32; GROUP]; SIDE],
     row: u32,
-    key: u32x8<S>,
+    key: u32,
 ) {
-    let unknown = u32x8::splat(simd, MIXED);
-    for (pair, samples) in mixed.as_flattened_mut().as_chunks_mut::<8>().0.iter_mut().enumerate() {
-        let [first, second] = [seen[2 * pair], seen[2 * pair + 1]];
-        let whole = u32x4::splat(simd, first).combine(u32x4::splat(simd, second));
-        let below = whole.simd_eq(unknown).select(u32x8::load_array(simd, *samples), whole);
-        let covered = mask32x8::from_bitmask(simd, u64::from(row >> (8 * pair) & 0xff));
-        *samples = covered.select(key, below).to_array();
+    let below = u32x8::load_array(simd, *seen);
+    let [first, last] = [row & 0xffff, row >> 16];
+    // Each pixel's key twice, then for each of its samples.
+    let both = below.combine(below);
+    let twice = both.zip_low(both);
+    if let [left, right] = mixed.as_flattened_mut().as_chunks_mut::<16>().0 {
+        cover_samples(simd, left, twice.zip_low(twice), first, key);
+        cover_samples(simd, right, twice.zip_high(twice), last, key);
     }
+    let key = u32x8::splat(simd, key);
     let places = u32x8::load_array(simd, [0, 4, 8, 12, 16, 20, 24, 28]);
     let bits = (u32x8::splat(simd, row) >> places) & 0xf;
-    let below = u32x8::load_array(simd, *seen);
     let same = bits.simd_eq(0) | below.simd_eq(key);
-    *seen = bits.simd_eq(0xf).select(key, same.select(below, unknown)).to_array();
+    let partly = same.select(below, u32x8::splat(simd, MIXED));
+    *seen = bits.simd_eq(0xf).select(key, partly).to_array();
+}
+
+/// The samples of four pixels, of which `whole` has the pixels' own keys.
+#[cfg(feature = "std")]
+#[inline(always)]
+fn cover_samples<S: Simd>(simd: S, samples: &mut [u32; 16], whole: u32x16<S>, bits: u32, key: u32) {
+    let unknown = whole.simd_eq(u32x16::splat(simd, MIXED));
+    let below = unknown.select(u32x16::load_array(simd, *samples), whole);
+    let covered = mask32x16::from_bitmask(simd, u64::from(bits));
+    *samples = covered.select(u32x16::splat(simd, key), below).to_array();
 }

@@ -200,6 +200,7 @@ proptest! {
         mixed in prop::collection::vec(prop::array::uniform4(0..3_u32), 90),
         stride in 8..12_usize,
         (pixels, samples, key) in (any::<u64>(), square(), 0..3_u32),
+        within in (0..8_u32).prop_map(|columns| u32::MAX >> (4 * columns)),
     ) {
         let with = |draw: &dyn Fn(&mut Rows<'_>)| {
             let (mut keys, mut mixed) = (keys.clone(), mixed.clone());
@@ -209,10 +210,10 @@ proptest! {
             seen.map(|(&key, of)| (key, (key == MIXED).then_some(of))).collect::<Vec<_>>()
         };
         let filled = with(&|rows| rows.fill(pixels, key));
-        let covered = with(&|rows| rows.cover(&samples, key));
+        let covered = with(&|rows| rows.cover(&samples, within, key));
         for level in [fearless_simd::Level::baseline(), fearless_simd::Level::new()] {
             prop_assert_eq!(&with(&|rows| rows.fill_by(level, pixels, key)), &filled);
-            prop_assert_eq!(&with(&|rows| rows.cover_by(level, &samples, key)), &covered);
+            prop_assert_eq!(&with(&|rows| rows.cover_by(level, &samples, within, key)), &covered);
         }
     }
 }
