@@ -223,17 +223,15 @@ fn taps_are_the_integral_over_the_bilinear_surface() {
 
 #[test]
 fn a_square_over_one_colour_is_that_colour() {
-    for texel in [[0, 82, 0, 189], [7, 130, 251, 255], [1, 2, 3, 97]] {
-        let image = Image::from_fn(6, 5, |_, _| texel).unwrap();
+    for code in 0..=255 {
+        let image = Image::from_fn(2, 6, |_, _| [code, 82, 255 - code, 189]).unwrap();
         let options = TextureOptions { wrap: Wrap::Repeat, ..TextureOptions::default() };
         let t = Texture::new(image.view(), &options).unwrap();
         let nearest = Sampler::DEFAULT.with(PixelFilter::Nearest, LevelMode::Zero);
         let one = t.sample(&Footprint::point(0.5, 0.5), &nearest);
-        for level in [LevelMode::Zero, LevelMode::Nearest, LevelMode::Linear, LevelMode::Auto] {
-            let s = Sampler { kernel: Kernel::Box, level, ..Sampler::DEFAULT };
-            for (u, v) in [(0.0, 0.0), (1.3, 2.7), (5.9, 4.2)] {
-                assert_eq!(t.sample(&Footprint::point(u, v), &s), one, "{level:?} {u} {v}");
-            }
+        let square = Sampler { kernel: Kernel::Box, ..Sampler::DEFAULT };
+        for (u, v) in [(0.0, 0.0), (1.3, 2.7), (1.9, 4.2)] {
+            assert_eq!(t.sample(&Footprint::point(u, v), &square), one, "{code} {u} {v}");
         }
     }
 }
