@@ -16,9 +16,10 @@ fn bands_per_group(grid: &TileGrid, threads: usize) -> usize {
     if threads <= 1 { 1 } else { (threads * TILES_PER_THREAD).div_ceil(grid.columns()) }
 }
 
-/// Rows held in memory at once: one group being rendered, one being handed over.
+/// Rows held in memory at once: one group being rendered, and with several threads one being handed over.
 pub(crate) fn buffered_rows(grid: &TileGrid, threads: usize) -> usize {
-    2 * (bands_per_group(grid, threads) * grid.side() as usize).min(grid.area().height() as usize)
+    threads.min(2)
+        * (bands_per_group(grid, threads) * grid.side() as usize).min(grid.area().height() as usize)
 }
 
 /// Renders all bands and hands them to the sink, which takes one group of bands while the next

@@ -40,7 +40,7 @@ const ROOMS: [Room; 14] = [
     library(
         "scumble-texture",
         &["scumble-geometry", "scumble-pixel"],
-        &["fearless_simd", "glam", "image", "libm", "rayon"],
+        &["bytemuck", "fearless_simd", "glam", "image", "libm", "memmap2", "rayon"],
     ),
     library("scumble-framebuffer", &["scumble-pixel"], &["fearless_simd"]),
     library("scumble-scene", &["scumble-geometry", "scumble-pixel"], &["glam"]),

@@ -137,7 +137,8 @@ impl<M: Map> Prepared<'_, M> {
     ) -> Result<Stats, WarpError<S::Error>> {
         let (width, height) = (self.area.width(), self.area.height());
         let bands = Bands::new(self, control);
-        let rows = (2 * bands.rows_per_group).min(height as usize) as u64;
+        let groups = self.pool.threads().min(2);
+        let rows = (groups * bands.rows_per_group).min(height as usize) as u64;
         let buffers = rows * u64::from(width) * size_of::<P>() as u64;
         self.warp.check_memory(buffers + self.texture.memory() as u64)?;
         sink.start(width, height).map_err(WarpError::Sink)?;
