@@ -71,12 +71,12 @@
 //!   which part of the image, [`TextureOptions::outlines`] which parts of the finest levels, and
 //!   [`TextureBuilder`] takes rows as a decoder yields them.
 //! - A pixel of the ground plane (`cargo bench`, one core of a server with 512-bit vectors) by
-//!   [`Texture::sample_row`]: nearest 6 ns, bilinear 12, trilinear 15, [`Sampler::FAST`] 36 and
-//!   [`Sampler::DEFAULT`] 58 on the average. Magnified five times, bilinear takes 8, Catmull and Rom's cubic
+//!   [`Texture::sample_row`]: nearest 5 ns, bilinear 8, trilinear 9, [`Sampler::FAST`] 34 and
+//!   [`Sampler::DEFAULT`] 53 on the average. Magnified five times, bilinear takes 8, Catmull and Rom's cubic
 //!   10 and the taps 18. [`Texture::sample`] sets up one pixel at a time and is slower; runs of four and
 //!   more pixels are worth a row.
 //! - A pyramid takes about as long to make as fresh memory from the system does: [`Texture::renewed`]
-//!   makes one in the memory of another.
+//!   makes one in the memory of another, and the feature `huge-pages` asks for memory in large pages.
 //!
 //! # Example
 //!
@@ -101,6 +101,7 @@
 //! - `libm`: floating point without the standard library; the crate is `no_std` with `alloc` then, and
 //!   gives the same bits by the instructions that it is compiled for.
 //! - `parallel`: builds pyramids on several threads, with the same bits.
+//! - `huge-pages`: asks the system for large pages for levels from 4 MB on, where it has them.
 //! - `image`: textures from the crate `image`'s decoded images.
 //! - `glam`: footprints from its vectors and matrices.
 #![cfg_attr(not(feature = "std"), no_std)]
