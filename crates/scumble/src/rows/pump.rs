@@ -11,8 +11,9 @@ pub(crate) enum Stopped<E> {
     Sink(E),
 }
 
-/// Renders groups of rows, one after the other, and hands each to the sink: while the next is rendered, or,
-/// with one thread, at once, from the one buffer that is still in the cache. `render` says which rows of `height` the group has that it put into the buffer.
+/// Renders groups of rows, one after the other, and hands each to the sink: while the next is rendered,
+/// or, with one thread, at once, from the one buffer that is still in the cache. `render` says which rows
+/// of `height` the group has that it put into the buffer.
 pub(crate) fn pump<P: Send + Sync, S: Sink<P>>(
     groups: usize,
     height: u32,
