@@ -136,7 +136,7 @@ pub(crate) fn average_all<S: Simd, const C: usize, const R: usize>(
         base[0] + patch.low[0].to_int::<i32x16<S>>(),
         base[1] + patch.low[1].to_int::<i32x16<S>>(),
     ];
-    let inside = level.reads(simd, [x, y], [LANES as i32, R as i32]);
+    let inside = level.reads(simd, [x, y], [x + (LANES as i32 - 1), y + (R as i32 - 1)]);
     let done = inside.to_bitmask() & wanted;
     let mut totals = i32x16::splat(simd, 0);
     for (r, row) in patch.weights.iter().enumerate() {

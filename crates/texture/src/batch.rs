@@ -311,15 +311,8 @@ impl<S: Simd> Batch<'_, S> {
             }
         }
         // A texel more takes care of rounding, and the last quad's own length.
-        let ([low_x, low_y], [high_x, high_y]) = (frame.low, frame.high);
-        let inside = if frame.even {
-            mask32x16::from_bitmask(simd, u64::MAX)
-        } else {
-            (x0 - wide).simd_ge(low_x)
-                & (x0 + wide).simd_le(high_x.saturating_sub(LANES as i32))
-                & (y0 - tall).simd_ge(low_y)
-                & (y0 + tall).simd_le(high_y.saturating_sub(1))
-        };
+        let last = [x0 + wide + LANES as i32, y0 + tall + 1];
+        let inside = level.reads(simd, [x0 - wide, y0 - tall], last);
         let inverse_vv = f32x16::splat(simd, 1.0) / s.vv;
         let across = s.det * inverse_vv;
         let run = across.sqrt() * limits.radius;

@@ -114,8 +114,7 @@ impl Classic {
     /// The two levels: in the coarser one the minor axis has x to 2x texels.
     fn pick(&self, f: &Footprint, shape: &Shape, [first, last]: [usize; 2]) -> Pick {
         if self.sampler.level != LevelMode::Auto {
-            let step = f.longest_step_squared();
-            return lod::pick(step, self.sampler.level, [first, last]);
+            return lod::pick(f, self.sampler.level, [first, last]);
         }
         let detail = (0.5 * log2(shape.minor * self.inverse_least) - 1.0).max(first as f64);
         let level = (detail as usize).min(last);

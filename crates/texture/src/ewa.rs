@@ -89,8 +89,7 @@ impl<'a> Plan<'a> {
     fn new(t: &'a Texture, f: &'a Footprint, mode: LevelMode, limits: &'a Limits) -> Self {
         let near = limits.magnify.nearness(products(single(&f.jacobian)));
         if mode != LevelMode::Auto {
-            let step = f.longest_step_squared();
-            let pick = lod::pick(step, mode, t.range());
+            let pick = lod::pick(f, mode, t.range());
             return Self { t, f, limits, pick, sigma: None, near };
         }
         let (sigma, minor) = Covariance::of(&f.jacobian, limits.inverse_ratio);

@@ -1,5 +1,3 @@
-use crate::covariance::single;
-use crate::lod;
 use crate::math::sqrt;
 use crate::wrap::FAR;
 use scumble_geometry::{DVec2, Homography, Matrix2};
@@ -68,11 +66,5 @@ impl Footprint {
         let (p, r, q) = (a * a + b * b, c * c + d * d, a * c + b * d);
         let (x, y) = (p - r, 2.0 * q);
         0.5 * (p + r + sqrt(x * x + y * y))
-    }
-
-    /// [`lod::longest_step_squared`] of the Jacobian.
-    #[inline(always)]
-    pub(crate) fn longest_step_squared(&self) -> f32 {
-        lod::longest_step_squared(single(&self.jacobian))
     }
 }

@@ -158,8 +158,8 @@ impl Level {
         let Self { width, height, .. } = *self;
         let short = self.frame.low[0] < self.frame.high[0];
         self.frame.even = short && (wrap == Wrap::Clamp || self.frame.ends && self.is_whole());
-        let even = width.is_power_of_two() && height.is_power_of_two();
-        if wrap == Wrap::Repeat && short && even && self.is_whole() {
+        let binary = width.is_power_of_two() && height.is_power_of_two();
+        if wrap == Wrap::Repeat && short && binary && self.is_whole() {
             self.mask = [width, height].map(|n| n as i32 - 1);
             self.frame.low = [i32::MIN; 2];
             self.frame.high = [i32::MAX; 2];
@@ -236,26 +236,23 @@ impl Level {
             & (y1 < rows.end as i32 + apron)
     }
 
-    /// Whether rectangles of so many columns and rows of texels from (x, y) on can be read in place.
+    /// Whether the texels from (x0, y0) to (x1, y1) can be read in place.
     #[inline(always)]
     pub(crate) fn reads<S: Simd>(
         &self,
         simd: S,
-        [x, y]: [i32x16<S>; 2],
-        [columns, rows]: [i32; 2],
+        [x0, y0]: [i32x16<S>; 2],
+        [x1, y1]: [i32x16<S>; 2],
     ) -> mask32x16<S> {
         let Frame { low, high, even, .. } = self.frame;
         if even {
             return mask32x16::from_bitmask(simd, u64::MAX);
         }
-        x.simd_ge(low[0])
-            & x.simd_le(high[0].saturating_sub(columns - 1))
-            & y.simd_ge(low[1])
-            & y.simd_le(high[1].saturating_sub(rows - 1))
+        x0.simd_ge(low[0]) & x1.simd_le(high[0]) & y0.simd_ge(low[1]) & y1.simd_le(high[1])
     }
 
-    /// The indices of their first texels, or of those that are the same; where they can not be read,
-    /// something of no meaning.
+    /// The indices of the first of so many columns and rows of texels from (x, y) on, or of texels that are
+    /// the same; where they can not be read, something of no meaning.
     #[inline(always)]
     pub(crate) fn indices<S: Simd>(
         &self,

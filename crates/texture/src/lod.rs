@@ -1,7 +1,8 @@
 //! Which levels are read when the level does not come from the ellipse.
 
-use crate::LevelMode;
+use crate::covariance::single;
 use crate::number::Number;
+use crate::{Footprint, LevelMode};
 use core::f32::consts::{LOG2_E, SQRT_2};
 
 /// One or two neighbouring levels.
@@ -21,16 +22,17 @@ pub(crate) fn longest_step_squared<N: Number>([a, b, c, d]: [N; 4]) -> N {
     (x - y).if_positive(x, y) + (x + y) * 0.0
 }
 
-/// The levels for a squared step, of those from `first` to `last` that are kept; a step that is not finite
-/// goes to the last. [`LevelMode::Auto`] does not come here.
+/// The levels for a footprint, of those from the first to the last that are kept; a Jacobian that is not
+/// finite goes to the last. [`LevelMode::Auto`] does not come here.
 #[inline(always)]
-pub(crate) fn pick(step: f32, mode: LevelMode, range: [usize; 2]) -> Pick {
+pub(crate) fn pick(f: &Footprint, mode: LevelMode, range: [usize; 2]) -> Pick {
+    let step = longest_step_squared(single(&f.jacobian));
     let [level, coarser] = levels(step, mode, range.map(|level| level as f32));
     // No pyramid has so many levels that this is not exact.
     Pick { level: level as usize, coarser }
 }
 
-/// The two numbers of a [`Pick`].
+/// The two numbers of a [`Pick`], for a squared step.
 #[inline(always)]
 pub(crate) fn levels<N: Number>(step: N, mode: LevelMode, [first, last]: [f32; 2]) -> [N; 2] {
     let (zero, last) = (step.all(0.0), step.all(last));
@@ -86,20 +88,24 @@ fn log2<N: Number>(x: N) -> N {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scumble_geometry::Matrix2;
 
     #[test]
     fn levels_follow_the_longest_step() {
-        let pick = |length: f32, mode| pick(length * length, mode, [0, 5]);
+        let pick = |length: f64, mode| {
+            let jacobian = Matrix2::new(length, 0.0, 0.0, 0.0);
+            pick(&Footprint { jacobian, ..Footprint::point(0.0, 0.0) }, mode, [0, 5])
+        };
         let near = |length| pick(length, LevelMode::Nearest).level;
         assert_eq!([0.0, 1.0, 1.41, 1.42, 2.0, 2.82, 2.83].map(near), [0, 0, 0, 1, 1, 1, 2]);
-        assert_eq!([1e30, f32::INFINITY, f32::NAN].map(near), [5, 5, 5]);
+        assert_eq!([1e30, f64::INFINITY, f64::NAN].map(near), [5, 5, 5]);
         let linear = |length| pick(length, LevelMode::Linear);
         assert_eq!(linear(0.5), Pick { level: 0, coarser: 0.0 });
         assert_eq!(linear(4.0), Pick { level: 2, coarser: 0.0 });
         assert_eq!(linear(6.0).level, 2);
         assert!((linear(6.0).coarser - 0.584_962_5).abs() < 1e-6);
         assert_eq!(linear(1e9), Pick { level: 5, coarser: 0.0 });
-        assert_eq!(linear(f32::NAN), Pick { level: 5, coarser: 0.0 });
+        assert_eq!(linear(f64::NAN), Pick { level: 5, coarser: 0.0 });
         assert_eq!(pick(1e9, LevelMode::Zero), Pick { level: 0, coarser: 0.0 });
     }
 

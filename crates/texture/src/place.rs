@@ -25,20 +25,13 @@ pub(crate) fn sample(t: &Texture, f: &Footprint, mode: LevelMode, kernel: Separa
         let level = &t.levels[index];
         kernel.sample(level, t.wrap, &Spotted::new(level, f.u, f.v, &f.jacobian))
     };
-    let Pick { level, coarser } = pick(t, f, mode);
+    let Pick { level, coarser } = lod::pick(f, mode, t.range());
     let fine = in_level(level);
     if coarser > 0.0 { lerp(fine, in_level(level + 1), coarser) } else { fine }
 }
 
 /// Texels that [`sample`] reads.
 pub(crate) fn cost(t: &Texture, f: &Footprint, mode: LevelMode, kernel: Separable) -> usize {
-    let levels = if pick(t, f, mode).coarser > 0.0 { 2 } else { 1 };
+    let levels = if lod::pick(f, mode, t.range()).coarser > 0.0 { 2 } else { 1 };
     levels * kernel.texels()
-}
-
-/// The levels for a footprint.
-#[inline(always)]
-pub(crate) fn pick(t: &Texture, f: &Footprint, mode: LevelMode) -> Pick {
-    let step = f.longest_step_squared();
-    lod::pick(step, mode, t.range())
 }

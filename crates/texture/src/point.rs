@@ -73,7 +73,7 @@ pub(crate) fn sample(t: &Texture, f: &Footprint, mode: LevelMode, filter: impl P
     if !f.is_finite() {
         return t.average();
     }
-    let Pick { level, coarser } = lod::pick(f.longest_step_squared(), mode, t.range());
+    let Pick { level, coarser } = lod::pick(&f, mode, t.range());
     let fine = in_level(&t.levels[level], t.wrap, &f, filter);
     let color = match t.levels.get(level + 1) {
         Some(next) if coarser > 0.0 => lerp(fine, in_level(next, t.wrap, &f, filter), coarser),

@@ -1,9 +1,9 @@
 //! Anisotropic filtering by a row of round probes along the footprint's major axis.
 
 use crate::kernel::gaussian;
-use crate::lod::Pick;
+use crate::lod::{self, Pick};
 use crate::math::{ceil, sqrt};
-use crate::place::{self, pick};
+use crate::place;
 use crate::procedural::Source;
 use crate::{Footprint, LevelMode, Texture, point};
 use scumble_geometry::Matrix2;
@@ -127,7 +127,7 @@ fn place(k: u32, count: u32) -> (f32, f32) {
 #[inline(always)]
 pub(crate) fn sample(t: &Texture, f: &Footprint, mode: LevelMode, most: u32) -> [f32; 4] {
     let row = Row::new(f, most);
-    let Pick { level, coarser } = pick(t, &row.spot(0), mode);
+    let Pick { level, coarser } = lod::pick(&row.spot(0), mode, t.range());
     let in_level = |index: usize| {
         let level = &t.levels[index];
         let [su, sv] = level.frame.scale;
@@ -143,6 +143,6 @@ pub(crate) fn sample(t: &Texture, f: &Footprint, mode: LevelMode, most: u32) -> 
 /// Texels that [`sample`] reads.
 pub(crate) fn cost(t: &Texture, f: &Footprint, mode: LevelMode, most: u32) -> usize {
     let row = Row::new(f, most);
-    let levels = if pick(t, &row.spot(0), mode).coarser > 0.0 { 2 } else { 1 };
+    let levels = if lod::pick(&row.spot(0), mode, t.range()).coarser > 0.0 { 2 } else { 1 };
     4 * levels * row.count as usize
 }

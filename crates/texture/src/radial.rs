@@ -78,13 +78,12 @@ impl Radial {
         each: impl Fn(&Level, &Ellipse) -> R,
         join: impl FnOnce(R, R, f32) -> R,
     ) -> R {
-        let step = f.longest_step_squared();
         let (sigma, minor) = self.unit(&f.jacobian);
         let Pick { level, coarser } = match self.mode {
             LevelMode::Auto => {
                 auto_pick(minor * self.limits.inverse_least, t.range(), self.limits.blend)
             }
-            mode => lod::pick(step, mode, t.range()),
+            mode => lod::pick(f, mode, t.range()),
         };
         let within = |index: usize| {
             let level = &t.levels[index];

@@ -72,8 +72,7 @@ impl Square {
     #[inline(always)]
     fn pick(&self, t: &Texture, f: &Footprint) -> Pick {
         if self.mode != LevelMode::Auto {
-            let step = f.longest_step_squared();
-            return lod::pick(step, self.mode, t.range());
+            return lod::pick(f, self.mode, t.range());
         }
         let axes = f.jacobian.axes();
         let (major, minor) = (axes.major * axes.major, axes.minor * axes.minor);

@@ -338,8 +338,7 @@ impl Texture {
             _ if extra::takes(s) => return extra::cost(self, &f, s),
             _ => return self.cost_fast(&f, s),
         };
-        let step = f.longest_step_squared();
-        let pick = lod::pick(step, point_mode(s), self.range());
+        let pick = lod::pick(&f, point_mode(s), self.range());
         let two = pick.coarser > 0.0;
         if two { 2 * each } else { each }
     }

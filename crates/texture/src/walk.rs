@@ -240,7 +240,6 @@ impl Row<'_> {
         let inside = self.texels.and_then(|row| row.get(place.ok()?..)?.first_chunk());
         match inside {
             Some(run) => f(run),
-            None if self.texels.is_none() => f(&[self.outside; LANES]),
             None => f(&self.collect(x)),
         }
     }
