@@ -146,7 +146,8 @@ impl Level {
     /// of two go on for ever.
     ///
     /// Of a level with an outline, the columns of its rows that are stored: beside those that do not
-    /// reach to an end there is nothing to fill, and pages that nobody reads are left alone.
+    /// reach to an end there is nothing to repeat, and pages that nobody reads are left alone. But a
+    /// constant may be read beside any row.
     pub(crate) fn seal(&mut self, wrap: Wrap, stored: &[Span]) {
         self.frame.ends = matches!(wrap, Wrap::Clamp | Wrap::Constant(_));
         self.outside = of_color(wrap.border());
@@ -183,10 +184,11 @@ impl Level {
         for (y, row) in kept.enumerate() {
             let stored = stored.get(y).copied().unwrap_or(columns);
             let ends = [stored.start == columns.start, stored.end == columns.end];
-            for i in (0..APRON).filter(|_| ends[0] && stored.len() > 0) {
+            let known = ends.map(|end| end && stored.len() > 0);
+            for i in (0..APRON).filter(|&i| known[0] || left[i].is_none()) {
                 row[i] = left[i].map_or(border, |from| row[from]);
             }
-            for i in (0..APRON).filter(|_| ends[1] && stored.len() > 0) {
+            for i in (0..APRON).filter(|&i| known[1] || right[i].is_none()) {
                 row[APRON + columns.len() + i] = right[i].map_or(border, |from| row[from]);
             }
         }

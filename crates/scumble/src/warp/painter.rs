@@ -111,10 +111,15 @@ impl<'a, M: Map> Painter<'a, M> {
 
     /// The colour of the pixel whose centre is `p`: what [`Painter::row`] gives, one by one.
     pub(super) fn pixel(&self, p: DVec2) -> Premul {
-        let (p, share) = self.view.as_ref().map_or((p, 1.0), |view| view.part(p));
-        let footprint = if share > 0.0 { self.map.at(p) } else { None };
+        let (at, share) = self.view.as_ref().map_or((p, 1.0), |view| view.part(p));
+        let footprint = if share > 0.0 { self.map.at(at) } else { None };
         let Some(f) = footprint else { return Premul::TRANSPARENT };
-        let color = self.finish(self.texture.sample(&f, &self.sampler), &f);
+        // The footprints next to the horizon have no end, and would reach the source from anywhere.
+        let color = if self.view.as_ref().is_some_and(|view| view.misses(&[p])) {
+            self.ground
+        } else {
+            self.finish(self.texture.sample(&f, &self.sampler), &f)
+        };
         if share < 1.0 { color.scaled(share as f32) } else { color }
     }
 

@@ -167,6 +167,38 @@ proptest! {
 }
 
 #[test]
+fn a_crop_that_ends_at_the_horizon_beside_the_source_changes_no_byte() {
+    let last = [-0.003_166_796_324_654_654, -0.020_673_539_955_673_725, 0.8];
+    let map = Homography::new([[1.2, 0.0, 0.0], [0.0, 1.2, 0.0], last]);
+    let source = source(true);
+    for border in [Border::Transparent, Border::Constant(Straight([0.2, 0.4, 0.6, 1.0]))] {
+        let whole = Warp { border, threads: 1, ..Warp::new(map, 600, 20) };
+        let all = whole.image(&source.view()).unwrap();
+        let part = Warp { crop: Some(IntRect::new(20, 0, 227, 5)), ..whole.clone() };
+        let part = part.image(&source.view()).unwrap();
+        assert_eq!(part.pixels(), all.view().crop(20, 0, 207, 5).to_image().pixels());
+    }
+}
+
+#[test]
+fn far_beside_a_source_that_is_not_opaque_all_is_the_border() {
+    let map = Homography::new([[9.0, 0.0, -15.0], [-2.9, 6.0, 74.0], [0.0, 0.0, 1.0]]);
+    let border = Border::Constant(Straight([0.1, 0.2, 0.9, 0.7]));
+    let point = |pixel| Sampler { pixel, level: LevelMode::Zero, ..Sampler::DEFAULT };
+    let (nearest, bilinear) = (point(PixelFilter::Nearest), point(PixelFilter::Bilinear));
+    for sampler in [nearest, bilinear, Sampler::FAST, Sampler::DEFAULT, Sampler::HIGH] {
+        let warp = warp(map, sampler, border);
+        let source = source(false);
+        let prepared = warp.prepare(&source.view()).unwrap();
+        let found = rows(&prepared, WIDTH);
+        for (i, found) in found.iter().enumerate() {
+            let p = centre((i % WIDTH) as i32, (i / WIDTH) as i32);
+            assert_eq!(found.0, prepared.painter().pixel(p).0, "{sampler:?} {p:?}");
+        }
+    }
+}
+
+#[test]
 fn a_lookup_of_a_homography_is_nearly_that_homography() {
     let map = Homography::new([[1.4, 0.2, -20.0], [-0.3, 1.7, 3.0], [1e-4, 2e-4, 1.0]]);
     let positions = Image::from_fn(WIDTH, HEIGHT, |x, y| {

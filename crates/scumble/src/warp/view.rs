@@ -79,8 +79,8 @@ impl View {
         (p + DVec2::new(line[0], line[1]) * (0.5 * (1.0 - share)), share)
     }
 
-    /// Whether no pixel with its centre in a rectangle sees anything of the source.
-    pub(super) fn misses(&self, corners: &[DVec2; 4]) -> bool {
+    /// Whether no pixel with its centre between some corners sees anything of the source.
+    pub(super) fn misses(&self, corners: &[DVec2]) -> bool {
         self.bounds.iter().any(|line| corners.iter().all(|p| at(line, *p) <= 0.0))
     }
 }
