@@ -99,9 +99,10 @@
 //! Exact areas are sums as well: what lies right of each edge in a pixel, a trapezoid, rounded to
 //! 2⁻³² of a pixel so that the sums are exact. Eight pixels are found at a time, and only along the
 //! edges. In a polygon the sum is the mean winding number, from which the area follows wherever the
-//! number takes but two neighbouring values: along every edge that has no other right beside it. The
-//! rest are knots of eight pixels that are cut into strips at the heights where edges begin, end or
-//! cross, one knot at a time. An [`AreaSink`] with a method
+//! number takes but two neighbouring values: in all rows in which the outline does not cross itself,
+//! which is proved once, in whole numbers; and elsewhere along every edge that has no other right
+//! beside it. The rest are knots of eight pixels that are cut into strips at the heights where edges
+//! begin, end or cross, one knot at a time. An [`AreaSink`] with a method
 //! [`row`](AreaSink::row) of its own blends a stretch of areas in one go.
 //!
 //! Per triangle on one core of a 3.8 GHz Zen 5, with a sink that fills words in the cache (the

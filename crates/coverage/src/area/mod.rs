@@ -13,7 +13,9 @@ mod slope;
 mod tests;
 
 pub(crate) use row::{AreaRow, GAP, eight_right};
-pub(crate) use slope::{Reach, Slope, eight_areas, eight_parts, extent, mirrored, splat, touched};
+pub(crate) use slope::{
+    Reach, Slope, eight_areas, eight_parts, extent, mirrored, rounded_parts, splat, touched,
+};
 
 /// Pixels that are summed side by side.
 pub(crate) const CHUNK: i32 = 8;

@@ -155,14 +155,26 @@ pub(crate) fn eight_parts<S: Simd>(
     height: f64,
     half_rise: f64,
 ) -> f64x8<S> {
-    let (from, to) = (splat(simd, from), splat(simd, to));
+    let ends = [splat(simd, from), splat(simd, to)];
+    rounded_parts(simd, c, ends, splat(simd, height), splat(simd, half_rise))
+}
+
+/// [`eight_parts`] of an edge each.
+#[inline(always)]
+pub(crate) fn rounded_parts<S: Simd>(
+    simd: S,
+    c: f64x8<S>,
+    [from, to]: [f64x8<S>; 2],
+    height: f64x8<S>,
+    half_rise: f64x8<S>,
+) -> f64x8<S> {
     let end = c + splat(simd, 1.0);
     let before = c.max(from).min(to);
     let after = end.max(from).min(to);
-    let within = splat(simd, half_rise) * (after - before);
+    let within = half_rise * (after - before);
     let sum = (before - from) + (after - from);
     let beyond = (end - to).max(splat(simd, 0.0)).min(splat(simd, 1.0));
-    (within * sum + splat(simd, height) * beyond + splat(simd, ROUNDER)) - splat(simd, ROUNDER)
+    (within * sum + height * beyond + splat(simd, ROUNDER)) - splat(simd, ROUNDER)
 }
 
 /// For a `sign` of −1 the mirror of pixel `x`, and what is to be added to the part left behind there:

@@ -1,7 +1,8 @@
 //! Exact area of polygons under a fill rule.
 //!
 //! Row by row, the edges are added to sums ([`super::sums`]), and from these follows the area of
-//! most pixels. What is left are knots: eight pixels with edges that run both ways, or that lie
+//! most pixels: of all in rows in which the outline is known not to cross itself ([`super::simple`]).
+//! What is left are knots: eight pixels with edges that run both ways, or that lie
 //! over one another, or that begin and end in the row. They are untied one by one
 //! ([`super::strips`]), from the edges that touch them and the winding number left of these.
 //!
@@ -79,7 +80,10 @@ impl Clipped<'_> {
             // The bands of the index begin at multiples of their height.
             let end = ((y | (ROWS as i32 - 1)) + 1).min(rect.y1);
             let rows = &mut scratch.sums[..(end - y) as usize];
-            rows.iter_mut().for_each(RowSums::clear);
+            for (row, sums) in (y..).zip(&mut *rows) {
+                sums.clear();
+                sums.proven = PLAIN && self.polygon.is_proven(row);
+            }
             scratch.gathered.start(simd, self.polygon, columns, (y, rows));
             let mut left = 0;
             for row in 0..(end - y) as usize {
@@ -122,11 +126,11 @@ impl Clipped<'_> {
         for level in self.polygon.levels_between(y * 256, y * 256 + 256) {
             sums.add_level(level.left >> 8, level.right >> 8);
         }
-        let base = left.mean();
+        let base = left.mean() + sums.before;
         if sums.find_knots::<PLAIN>(left) {
             knots.untie(simd, self.polygon, y, gathered, (sums, left));
         }
-        sums.sweep(simd, self.polygon, base, (areas, &mut Row { y, rect: self.rect, sink }));
+        sums.sweep(self.polygon, base, (areas, &mut Row { y, rect: self.rect, sink }));
     }
 }
 
@@ -175,11 +179,11 @@ impl Knots {
                 let source = &gathered.edges[sums.met[i as usize].edge as usize];
                 self.edges.push(source.area_edge(y));
             }
-            if is_calm(y, left, &self.edges) {
+            if is_calm((x, y), left, &self.edges) {
                 sums.calm(chunk);
             } else {
                 let place = Place { polygon, x, y, left };
-                sums.untie(self.strips.areas(simd, place, &self.edges));
+                sums.untie(chunk, self.strips.areas(simd, place, &self.edges));
             }
             next = sums.next_knot(chunk + 1);
         }

@@ -2,6 +2,7 @@
 
 use super::steps::Steps;
 use super::strips::AreaEdge;
+use crate::fixed::{floor, low_bits};
 
 /// With more edges than this the question is not worth asking.
 const MOST: usize = 16;
@@ -23,10 +24,35 @@ impl Piece {
     }
 }
 
-/// Whether it is plain to see that the winding number takes no more than two values, neighbours of
-/// each other, right of `left` along row `y`: then the area follows from its mean.
+/// The winding numbers in each of eight pixels: the least and the greatest.
+struct Ranges {
+    least: [i32; 8],
+    most: [i32; 8],
+}
+
+impl Ranges {
+    /// Adds a winding number between two x, counted from the left side of the first pixel.
+    #[inline(always)]
+    fn add(&mut self, from: f64, to: f64, winding: i32) {
+        let pixel = |x: f64| low_bits(floor(x.clamp(0.0, 7.5))) as usize;
+        let (first, last) = (pixel(from - TOUCHING), pixel(to + TOUCHING));
+        for (least, most) in self.least[first..=last].iter_mut().zip(&mut self.most[first..=last]) {
+            *least = winding.min(*least);
+            *most = winding.max(*most);
+        }
+    }
+
+    /// Whether the mean of each pixel tells its area.
+    #[inline(always)]
+    fn are_narrow(&self) -> bool {
+        self.least.iter().zip(&self.most).all(|(least, most)| most - least <= 1)
+    }
+}
+
+/// Whether it is plain to see that in none of the eight pixels from `x` on the winding number takes
+/// more than two values, neighbours of each other, along row `y`: then the area follows from its mean.
 #[inline(always)]
-pub(super) fn is_calm(y: i32, left: &Steps, edges: &[AreaEdge]) -> bool {
+pub(super) fn is_calm((x, y): (i32, i32), left: &Steps, edges: &[AreaEdge]) -> bool {
     if edges.len() > MOST {
         return false;
     }
@@ -54,8 +80,9 @@ pub(super) fn is_calm(y: i32, left: &Steps, edges: &[AreaEdge]) -> bool {
     }
     events[0] &= !1;
     let mut pieces = [Piece::default(); MOST];
+    let x = f64::from(x);
     let mut winding = left.top;
-    let mut range = (winding, winding);
+    let mut ranges = Ranges { least: [i32::MAX; 8], most: [i32::MIN; 8] };
     let mut from = 0;
     let mut word = 0;
     loop {
@@ -84,17 +111,15 @@ pub(super) fn is_calm(y: i32, left: &Steps, edges: &[AreaEdge]) -> bool {
         if !is_in_order(&pieces[..count]) {
             return false;
         }
-        let mut here = winding;
-        range = (range.0.min(here), range.1.max(here));
+        let (mut here, mut since) = (winding, 0.0);
         for piece in &pieces[..count] {
+            ranges.add(since, piece.top.max(piece.bottom) - x, here);
+            since = piece.top.min(piece.bottom) - x;
             here += piece.winding;
-            range = (range.0.min(here), range.1.max(here));
         }
-        if range.1 - range.0 > 1 {
-            return false;
-        }
+        ranges.add(since, 8.0, here);
         if to == 256 {
-            return true;
+            return ranges.are_narrow();
         }
         winding += left.change(to);
         from = to;

@@ -1,6 +1,7 @@
 //! What area coverage needs to know of a few rows of a clip: the edges that meet each of them, and
 //! the winding number at their left side.
 
+use super::eights::Eights;
 use super::steps::Steps;
 use super::strips::AreaEdge;
 use super::sums::RowSums;
@@ -50,7 +51,13 @@ impl Source {
     /// Adds it to the sums of the rows that it meets, of which the first is row `y0`. `place` is its
     /// own among the gathered edges.
     #[inline(always)]
-    fn add<S: Simd>(&self, simd: S, place: u32, y0: i32, rows: &mut [RowSums]) {
+    fn add<S: Simd>(
+        &self,
+        simd: S,
+        place: u32,
+        (y0, rows): (i32, &mut [RowSums]),
+        eights: &mut Eights,
+    ) {
         let top = self.top.max(y0 * 256);
         let bottom = self.bottom.min((y0 + rows.len() as i32) * 256);
         let height = |y: i32| f64::from(y) * (1.0 / 256.0);
@@ -58,14 +65,19 @@ impl Source {
         let mut start = height(top);
         let mut from = self.slope.along(start);
         let [first, last] = [top, bottom - 1].map(|y| ((y >> 8) - y0) as usize);
-        for row in &mut rows[first..=last] {
+        for row in first..=last {
             let row_top = at & -256;
             let next = bottom.min(row_top + 256);
             let end = height(next);
             let to = self.slope.along(end);
             let Slope { sign, half_rise, .. } = self.slope;
             let reach = Reach { sign, from, to, height: end - start, half_rise };
-            row.add(simd, (place, self.winding), (at - row_top, next - row_top), &reach);
+            if rows[row].proven {
+                eights.push(simd, row, (&reach, self.winding), rows);
+            } else {
+                let heights = (at - row_top, next - row_top);
+                rows[row].add(simd, (place, self.winding), heights, &reach);
+            }
             (at, start, from) = (next, end, to);
         }
     }
@@ -80,6 +92,7 @@ pub(super) struct Gathered {
     /// Edges within the clip's columns.
     pub(super) edges: Vec<Source>,
     left: LeftSide,
+    eights: Eights,
 }
 
 /// How the winding number changes along the left side of a clip.
@@ -114,6 +127,7 @@ impl Gathered {
         let (top, bottom) = (y0 * 256, (y0 + rows.len() as i32) * 256);
         let (left, right) = (x0 * 256, x1 * 256 - 1);
         let (edges, steps) = polygon.bands.between(top, (left, right));
+        let all_proven = rows.iter().all(|row| row.proven);
         for e in edges {
             if e.y0 >= bottom || e.y1 <= top {
                 continue;
@@ -122,10 +136,13 @@ impl Gathered {
                 self.left.add_edge(e, top, bottom);
             } else if e.left() <= right {
                 let source = Source::from(*e);
-                source.add(simd, self.edges.len() as u32, y0, rows);
-                self.edges.push(source);
+                source.add(simd, self.edges.len() as u32, (y0, rows), &mut self.eights);
+                if !all_proven {
+                    self.edges.push(source);
+                }
             }
         }
+        self.eights.flush(simd, rows);
         for &(height, change) in steps {
             self.left.add(height.clamp(top, bottom) - top, change);
         }

@@ -4,9 +4,11 @@ mod area;
 mod bands;
 mod calm;
 mod crowd;
+mod eights;
 mod gather;
 mod rows;
 mod samples;
+mod simple;
 mod steps;
 mod strips;
 mod sums;
@@ -18,7 +20,9 @@ use crate::triangle::owning_pixels;
 use crate::{Cover, FixedPoint};
 use alloc::vec::Vec;
 use bands::Bands;
+use core::ops::Range;
 use scumble_geometry::{DVec2, FillRule, IntRect};
+use simple::{Chain, unproven_rows};
 
 /// An edge that crosses rows, from the top (y0 < y1).
 #[derive(Debug, Clone, Copy, Default)]
@@ -66,6 +70,8 @@ pub(crate) struct Polygon {
     /// The level edges, by rising y: no row of samples crosses one, but the winding number changes
     /// there.
     levels: Vec<Level>,
+    /// The rows in which the outline may cross itself, by rising row.
+    unproven: Vec<Range<i32>>,
     bounds: IntRect,
     rule: FillRule,
 }
@@ -75,6 +81,7 @@ pub(crate) struct Polygon {
 pub(crate) struct PolygonBuilder {
     contour: Vec<FixedPoint>,
     edges: Vec<PolygonEdge>,
+    chains: Vec<Chain>,
     levels: Vec<Level>,
     /// How many contours enclose anything, and the corners of the last one if it has three.
     contours: usize,
@@ -111,6 +118,7 @@ impl PolygonBuilder {
         if !is_flat(&self.contour) {
             self.contours += 1;
             self.corners = self.contour[..].try_into().ok();
+            let mut before = 0;
             for (i, &p) in self.contour.iter().enumerate() {
                 let q = self.contour[if i + 1 < self.contour.len() { i + 1 } else { 0 }];
                 if p.y == q.y {
@@ -119,6 +127,12 @@ impl PolygonBuilder {
                 }
                 let (top, bottom, winding) = if p.y < q.y { (p, q, 1) } else { (q, p, -1) };
                 let (x0, y0, x1, y1) = (top.x, top.y, bottom.x, bottom.y);
+                let place = self.edges.len() as u32;
+                match self.chains.last_mut() {
+                    Some(chain) if winding == before => chain.last = place,
+                    _ => self.chains.push(Chain { first: place, last: place }),
+                }
+                before = winding;
                 self.edges.push(PolygonEdge { x0, y0, x1, y1, winding });
             }
         }
@@ -143,8 +157,9 @@ impl PolygonBuilder {
         }
         let bounds = owning_pixels(x0, y0, x1, y1);
         let edge_count = self.edges.len();
+        let unproven = unproven_rows(&self.edges, &self.chains);
         let bands = Bands::new(self.edges, bounds);
-        Some(Polygon { bands, edge_count, levels: self.levels, bounds, rule })
+        Some(Polygon { bands, edge_count, levels: self.levels, unproven, bounds, rule })
     }
 }
 
@@ -175,6 +190,12 @@ impl Polygon {
             FillRule::NonZero => winding != 0,
             FillRule::EvenOdd => winding & 1 != 0,
         }
+    }
+
+    /// Whether the winding number is known to be 0 or 1 all over row `y`, or 0 or −1.
+    fn is_proven(&self, y: i32) -> bool {
+        let at = self.unproven.partition_point(|rows| rows.end <= y);
+        self.unproven.get(at).is_none_or(|rows| y < rows.start)
     }
 
     /// `rect` lies within the bounds and is not empty.

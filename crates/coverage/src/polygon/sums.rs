@@ -11,8 +11,9 @@
 //! so it does at every height in between: the group is plain. The same holds upwards.
 
 use super::Polygon;
+use super::eights::A_LITTLE;
 use super::steps::Steps;
-use crate::area::{CHUNK, Reach, eight_areas, eight_right, splat};
+use crate::area::{CHUNK, Reach, eight_right, splat};
 use crate::fixed::{floor, low_bits};
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -24,10 +25,6 @@ const UP: u32 = 32;
 
 /// What is added to a group that is not plain.
 const NOT_PLAIN: u64 = 1 << UP | 1;
-
-/// An edge ends in the pixel of its end even if that was computed a little too far left: edges that
-/// follow each other touch a common pixel.
-const A_LITTLE: f64 = 1.0 / (1 << 26) as f64;
 
 /// The pixels that an edge touches in a row.
 #[derive(Debug, Clone, Copy)]
@@ -46,8 +43,8 @@ pub(super) struct RowSums {
     chunks: usize,
     /// Per pixel: by how much the sum exceeds that of the pixel before.
     steps: Vec<f64>,
-    /// The areas of the chunks that are knots, from left to right.
-    untied: Vec<[f64; 8]>,
+    /// The chunks that are knots, from left to right, and their areas.
+    untied: Vec<(usize, [f64; 8])>,
     /// Per pixel: the heights of the edges that begin there, those that run up shifted by [`UP`].
     heights: Vec<u64>,
     /// One bit per pixel: whether an edge touches it, and whether one touches the pixel before
@@ -58,6 +55,12 @@ pub(super) struct RowSums {
     knots: Vec<u64>,
     /// The edges that matter.
     pub(super) met: Vec<Met>,
+    /// Whether the mean winding number is known to tell the area wherever edges are.
+    pub(super) proven: bool,
+    /// Whether anything was added since the last row.
+    used: bool,
+    /// The heights of edges left of all pixels, if it is known.
+    pub(super) before: f64,
     /// What lies left of all pixels: heights in 1/256 pixel from the top of the row, and the winding
     /// number between them.
     passed: Vec<(i32, i32, i32)>,
@@ -84,11 +87,13 @@ impl RowSums {
     pub(super) fn clear(&mut self) {
         self.met.clear();
         self.passed.clear();
+        self.used = false;
+        self.before = 0.0;
     }
 
     /// Whether no edge matters to the row.
     pub(super) fn is_empty(&self) -> bool {
-        self.met.is_empty() && self.passed.is_empty()
+        !self.used && self.passed.is_empty()
     }
 
     /// Adds what there is of an edge in the row: its place among all edges and the winding number that it
@@ -112,15 +117,16 @@ impl RowSums {
             self.passed.push((from, to, winding));
             return;
         }
-        self.met.push(Met { edge: place, first, last });
-        let height = ((to - from) as u64) << if winding > 0 { 0 } else { UP };
+        self.used = true;
         let weight = f64::from(winding);
         let (from_x, to_x) = (first.max(self.x0), last.min(right - 1));
         let (column, end) = ((from_x - self.x0) as usize, (to_x - self.x0) as usize);
+        self.mark(column, end);
+        self.met.push(Met { edge: place, first, last });
+        let height = ((to - from) as u64) << if winding > 0 { 0 } else { UP };
         // What goes on beyond the right side is not known to be plain.
         let cut = if last >= right { NOT_PLAIN } else { 0 };
         self.heights[column] += height + cut;
-        self.mark(column, end);
         self.add_long(simd, (column, end), reach, weight);
     }
 
@@ -130,6 +136,47 @@ impl RowSums {
             left.add(from, winding);
             left.add(to, -winding);
         }
+    }
+
+    /// Adds the `rises` of an edge that touches one or two pixels, if the row has both, to a row of which
+    /// all is known; else says `false`.
+    #[inline(always)]
+    pub(super) fn add_short(&mut self, (first, last): (i32, i32), rises: [f64; 3]) -> bool {
+        let column = first.wrapping_sub(self.x0) as u32 as usize;
+        let two = last.wrapping_sub(first) as u32;
+        if two > 1 || column + two as usize >= self.chunks * 8 {
+            return false;
+        }
+        self.used = true;
+        let steps: &mut [f64] = &mut self.steps[column..column + 3];
+        for (step, rise) in steps.iter_mut().zip(rises) {
+            *step += rise;
+        }
+        let (word, bit) = (column / 64, column % 64);
+        self.touched[word] |= (1 | u64::from(two) << 1) << bit;
+        if two != 0 && bit == 63 {
+            self.touched[word + 1] |= 1;
+        }
+        true
+    }
+
+    /// Adds an edge that touches the pixels from `first` to `last` to a row of which all is known; its
+    /// heights carry its winding number.
+    #[inline(always)]
+    pub(super) fn add_known<S: Simd>(&mut self, simd: S, (first, last): (i32, i32), reach: &Reach) {
+        let right = self.x0 + self.chunks as i32 * CHUNK;
+        if first >= right {
+            return;
+        }
+        self.used = true;
+        if last < self.x0 {
+            self.before += reach.height;
+            return;
+        }
+        let (from_x, to_x) = (first.max(self.x0), last.min(right - 1));
+        let (column, end) = ((from_x - self.x0) as usize, (to_x - self.x0) as usize);
+        self.mark(column, end);
+        self.add_long(simd, (column, end), reach, 1.0);
     }
 
     /// Adds an edge that touches some pixels.
@@ -157,7 +204,9 @@ impl RowSums {
         let end = self.x0 + self.chunks as i32 * CHUNK - 1;
         if left <= end && right >= self.x0 {
             let column = (left.max(self.x0) - self.x0) as usize;
-            self.heights[column] += NOT_PLAIN;
+            if !self.proven {
+                self.heights[column] += NOT_PLAIN;
+            }
             self.mark(column, (right.min(end) - self.x0) as usize);
         }
     }
@@ -188,8 +237,13 @@ impl RowSums {
     #[inline(always)]
     pub(super) fn find_knots<const PLAIN: bool>(&mut self, left: &Steps) -> bool {
         if !left.is_constant() {
-            self.heights[0] += NOT_PLAIN;
             self.touched[0] |= 1;
+        }
+        if self.proven {
+            return false;
+        }
+        if !left.is_constant() {
+            self.heights[0] += NOT_PLAIN;
         }
         let mut any = false;
         // The group under way: where it begins and ends, and its heights.
@@ -235,10 +289,6 @@ impl RowSums {
         Some(word * 64 + bits.trailing_zeros() as usize)
     }
 
-    pub(super) fn is_knot(&self, chunk: usize) -> bool {
-        self.knots[chunk / 64] >> (chunk % 64) & 1 == 1
-    }
-
     /// The first pixel of a chunk.
     pub(super) fn first_pixel(&self, chunk: usize) -> i32 {
         self.x0 + chunk as i32 * CHUNK
@@ -249,61 +299,75 @@ impl RowSums {
         self.knots[chunk / 64] &= !(1 << (chunk % 64));
     }
 
-    /// Unties the next knot.
-    pub(super) fn untie(&mut self, areas: [f64; 8]) {
-        self.untied.push(areas);
+    /// Unties the knot `chunk`; knots come from left to right.
+    pub(super) fn untie(&mut self, chunk: usize, areas: [f64; 8]) {
+        self.untied.push((chunk, areas));
     }
 
     /// Sums from left to right, and hands on what is covered. `base` is the mean winding number at
     /// the left side.
     #[inline(always)]
-    pub(super) fn sweep<S: Simd>(
+    pub(super) fn sweep(
         &mut self,
-        simd: S,
         polygon: &Polygon,
         base: f64,
         (areas, out): (&mut Vec<f32>, &mut impl Stretches),
     ) {
-        if areas.len() < self.chunks * 8 {
-            areas.resize(self.chunks * 8, 0.0);
+        match polygon.rule {
+            FillRule::NonZero => self.sweep_by::<false>(polygon, base, (areas, out)),
+            FillRule::EvenOdd => self.sweep_by::<true>(polygon, base, (areas, out)),
         }
-        let mut base = base;
-        let mut untied = 0;
-        // From where on all is `base`, and the touched stretch under way.
+    }
+
+    #[inline(always)]
+    fn sweep_by<const EVEN_ODD: bool>(
+        &mut self,
+        polygon: &Polygon,
+        base: f64,
+        (areas, out): (&mut Vec<f32>, &mut impl Stretches),
+    ) {
+        let columns = self.chunks * 8;
+        if areas.len() < columns {
+            areas.resize(columns, 0.0);
+        }
+        let mut sum = base;
+        // The touched stretch under way, and how many knots lie left of it.
         let mut stretch = 0..0usize;
+        let mut untied = 0;
         for word in 0..self.chunks.div_ceil(8) {
             let mut bits = core::mem::take(&mut self.touched[word]);
             self.joined[word] = 0;
             while bits != 0 {
-                let byte = bits.trailing_zeros() as usize / 8;
-                let here = (bits >> (byte * 8)) as u8;
-                bits &= !(0xff << (byte * 8));
-                let chunk = word * 8 + byte;
-                if chunk * 8 > stretch.end.next_multiple_of(8) || stretch.is_empty() {
-                    self.hand_on(areas, stretch.clone(), out);
-                    let first = chunk * 8 + here.trailing_zeros() as usize;
-                    if polygon.is_inside(base as i32) {
-                        out.full(self.pixel(stretch.end), self.pixel(first));
+                let low = bits.trailing_zeros();
+                let count = (bits >> low).trailing_ones();
+                bits &= u64::MAX.checked_shl(low + count).unwrap_or(0);
+                let from = word * 64 + low as usize;
+                let to = from + count as usize;
+                if from > stretch.end + GAP {
+                    self.hand_on((areas, &mut untied), stretch.clone(), out);
+                    if polygon.is_inside(sum as i32) {
+                        out.full(self.pixel(stretch.end), self.pixel(from));
                     }
-                    stretch.start = first;
+                    stretch.start = from;
+                } else if from > stretch.end {
+                    areas[stretch.end..from].fill(area::<EVEN_ODD>(sum));
                 }
-                stretch.end = chunk * 8 + 8 - here.leading_zeros() as usize;
-                let means = self.sum_chunk(chunk, &mut base);
-                let knot = self.is_knot(chunk).then(|| self.untied[untied]);
-                untied += usize::from(knot.is_some());
-                let sums = match knot {
-                    Some(areas) => f64x8::from_slice(simd, &areas),
-                    None => from_means(simd, polygon.rule, &means),
-                };
-                areas[chunk * 8..chunk * 8 + 8].copy_from_slice(&eight_areas(simd, sums));
+                stretch.end = to;
+                for (step, area_here) in self.steps[from..to].iter_mut().zip(&mut areas[from..to]) {
+                    sum += core::mem::take(step);
+                    *area_here = area::<EVEN_ODD>(sum);
+                }
+                sum += core::mem::take(&mut self.steps[to]);
             }
         }
-        self.knots[..self.chunks.div_ceil(64)].fill(0);
-        self.untied.clear();
-        self.steps[self.chunks * 8..self.chunks * 8 + 16].fill(0.0);
-        self.hand_on(areas, stretch.clone(), out);
-        if polygon.is_inside(base as i32) {
-            out.full(self.pixel(stretch.end), self.pixel(self.chunks * 8));
+        self.hand_on((areas, &mut untied), stretch.clone(), out);
+        if !self.untied.is_empty() {
+            self.knots[..self.chunks.div_ceil(64)].fill(0);
+            self.untied.clear();
+        }
+        self.steps[columns..columns + 16].fill(0.0);
+        if polygon.is_inside(sum as i32) {
+            out.full(self.pixel(stretch.end), self.pixel(columns));
         }
     }
 
@@ -311,50 +375,53 @@ impl RowSums {
         self.x0 + column as i32
     }
 
+    /// Hands on the areas of a stretch, the next one; `untied` of the knots lie left of it.
     #[inline(always)]
-    fn hand_on(&self, areas: &[f32], columns: Range<usize>, out: &mut impl Stretches) {
-        if !columns.is_empty() {
-            out.areas(self.pixel(columns.start), &areas[columns]);
+    fn hand_on(
+        &self,
+        (areas, untied): (&mut [f32], &mut usize),
+        stretch: Range<usize>,
+        out: &mut impl Stretches,
+    ) {
+        while let Some((chunk, knot)) = self.untied.get(*untied)
+            && chunk * 8 < stretch.end
+        {
+            for (column, area) in (chunk * 8..).zip(knot) {
+                if stretch.contains(&column) {
+                    areas[column] = held(*area);
+                }
+            }
+            if chunk * 8 + 8 > stretch.end {
+                // The rest of it lies in the next.
+                break;
+            }
+            *untied += 1;
         }
-    }
-
-    /// The sums of a chunk, from that of the pixel before; and the sum of the pixel after it.
-    #[inline(always)]
-    fn sum_chunk(&mut self, chunk: usize, sum: &mut f64) -> [f64; 8] {
-        let steps = &mut self.steps[chunk * 8..chunk * 8 + 9];
-        let mut s = [0.0; 9];
-        s.copy_from_slice(steps);
-        steps.fill(0.0);
-        // In pairs, so that hardly one waits for another.
-        let (a, b, c, d) = (s[0] + s[1], s[2] + s[3], s[4] + s[5], s[6] + s[7]);
-        let (low, middle) = (*sum, *sum + (a + b));
-        *sum = middle + ((c + d) + s[8]);
-        [
-            low + s[0],
-            low + a,
-            low + (a + s[2]),
-            middle,
-            middle + s[4],
-            middle + c,
-            middle + (c + s[6]),
-            middle + (c + d),
-        ]
+        if !stretch.is_empty() {
+            out.areas(self.pixel(stretch.start), &areas[stretch]);
+        }
     }
 }
 
-/// The areas that follow from mean winding numbers.
+/// Groups of pixels that are touched and no further apart than this are handed on together: that takes
+/// less than to hand on what is between them by itself.
+const GAP: usize = 4;
+
+/// The area that follows from a mean winding number.
 #[inline(always)]
-fn from_means<S: Simd>(simd: S, rule: FillRule, means: &[f64; 8]) -> f64x8<S> {
-    let means = f64x8::from_slice(simd, means);
-    match rule {
-        FillRule::NonZero => means.abs(),
+fn area<const EVEN_ODD: bool>(mean: f64) -> f32 {
+    if EVEN_ODD {
         // How far it is from an even number.
-        FillRule::EvenOdd => {
-            let half = means * splat(simd, 0.5);
-            let whole = (half + splat(simd, ROUNDER)) - splat(simd, ROUNDER);
-            (half - whole).abs() * splat(simd, 2.0)
-        }
+        let half = mean * 0.5;
+        let whole = (half + ROUNDER) - ROUNDER;
+        return held((half - whole).abs() * 2.0);
     }
+    held(mean.abs())
+}
+
+#[inline(always)]
+fn held(area: f64) -> f32 {
+    area.clamp(0.0, 1.0) as f32
 }
 
 /// 1.5 × 2⁵²: adding it and taking it away again rounds to the nearest whole number.

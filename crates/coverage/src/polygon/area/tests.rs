@@ -17,6 +17,25 @@ impl AreaSink for Areas {
     }
 }
 
+/// Whether all edges untied one by one give the same bits as what is drawn.
+fn check_short_way(polygon: &Polygon) -> Result<(), TestCaseError> {
+    for rect in [polygon.bounds(), IntRect::new(3, 0, 11, 8)] {
+        let rect = rect.intersect(&polygon.bounds());
+        if rect.is_empty() {
+            continue;
+        }
+        let clipped = Clipped { polygon, rect };
+        let mut scratch = PolygonScratch::default();
+        let (mut short, mut long) = (Areas::default(), Areas::default());
+        dispatch!(Level::new(), simd => {
+            clipped.rasterize::<_, true>(simd, &mut scratch, &mut short);
+            clipped.rasterize::<_, false>(simd, &mut scratch, &mut long);
+        });
+        prop_assert_eq!(short, long);
+    }
+    Ok(())
+}
+
 proptest! {
     #[test]
     fn the_short_way_gives_the_same_bits(
@@ -36,20 +55,25 @@ proptest! {
         }
         let rule = if even_odd { FillRule::EvenOdd } else { FillRule::NonZero };
         let Some(polygon) = builder.finish(rule) else { return Ok(()) };
-        for rect in [polygon.bounds(), IntRect::new(3, 0, 11, 8)] {
-            let rect = rect.intersect(&polygon.bounds());
-            if rect.is_empty() {
-                continue;
-            }
-            let clipped = Clipped { polygon: &polygon, rect };
-            let mut scratch = PolygonScratch::default();
-            let (mut short, mut long) = (Areas::default(), Areas::default());
-            dispatch!(Level::new(), simd => {
-                clipped.rasterize::<_, true>(simd, &mut scratch, &mut short);
-                clipped.rasterize::<_, false>(simd, &mut scratch, &mut long);
-            });
-            prop_assert_eq!(short, long);
+        check_short_way(&polygon)?;
+    }
+
+    #[test]
+    fn the_short_way_gives_the_same_bits_for_many_edges(
+        radii in prop::collection::vec(1.0..3000.0f64, 3..120),
+        (turns, even_odd) in (1..4u32, any::<bool>()),
+    ) {
+        // Around once it does not cross itself; around again it does.
+        let mut builder = Polygon::builder();
+        let step = f64::from(turns) * core::f64::consts::TAU / radii.len() as f64;
+        for (i, r) in radii.iter().enumerate() {
+            let (sin, cos) = (step * i as f64).sin_cos();
+            builder.push(FixedPoint { x: (2.0 * r * cos) as i32, y: (r * sin) as i32 });
         }
+        builder.close();
+        let rule = if even_odd { FillRule::EvenOdd } else { FillRule::NonZero };
+        let Some(polygon) = builder.finish(rule) else { return Ok(()) };
+        check_short_way(&polygon)?;
     }
 
     #[test]
