@@ -1,5 +1,6 @@
 use crate::{CoverageError, SampleMask};
 use alloc::vec::Vec;
+use scumble_geometry::DVec2;
 
 /// Where the samples of a pixel lie: up to 64 offsets from its top left corner, in 1/256 pixel.
 ///
@@ -143,6 +144,28 @@ impl SamplePattern {
     #[must_use]
     pub fn full_mask(&self) -> SampleMask {
         SampleMask::full(self.len())
+    }
+
+    /// The mean of the offsets of some samples, in pixels: where a colour is evaluated that only what is
+    /// covered may tell (centroid sampling). The middle of the pixel if there are none.
+    ///
+    /// ```
+    /// use scumble_coverage::{DVec2, SampleMask, SamplePattern};
+    ///
+    /// let pattern = SamplePattern::grid(4)?;
+    /// assert_eq!(pattern.centroid(SampleMask(0b0011)), DVec2::new(0.5, 0.25));
+    /// # Ok::<(), scumble_coverage::CoverageError>(())
+    /// ```
+    #[must_use]
+    pub fn centroid(&self, mask: SampleMask) -> DVec2 {
+        let (mut sum, mut count) = (DVec2::ZERO, 0.0);
+        for (i, offset) in (0..).zip(&self.offsets) {
+            if mask.contains(i) {
+                sum += DVec2::from(offset.map(f64::from));
+                count += 1.0;
+            }
+        }
+        if count > 0.0 { sum / (256.0 * count) } else { DVec2::splat(0.5) }
     }
 
     /// The distinct heights of the samples, from the top.

@@ -161,6 +161,18 @@ impl Path {
         Self { elements: self.elements.iter().map(|e| e.map(|p| map.apply(p))).collect() }
     }
 
+    /// The corners, if it is a triangle and nothing else, closed or not.
+    #[must_use]
+    pub fn triangle(&self) -> Option<[DVec2; 3]> {
+        use PathElement::{Close, LineTo, MoveTo};
+        match *self.elements() {
+            [MoveTo(a), LineTo(b), LineTo(c)] | [MoveTo(a), LineTo(b), LineTo(c), Close] => {
+                Some([a, b, c])
+            }
+            _ => None,
+        }
+    }
+
     /// The smallest rectangle that holds the path itself (not merely its control points), without
     /// stroke; `None` for a path without points or with a NaN.
     #[must_use]

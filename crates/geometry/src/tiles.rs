@@ -14,14 +14,21 @@ use alloc::{vec, vec::Vec};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TileGrid {
     area: IntRect,
-    side: u32,
+    width: u32,
+    height: u32,
 }
 
 impl TileGrid {
     /// Cuts `area` into tiles of `side` pixels. A side of 0 counts as 1.
     #[must_use]
     pub fn new(area: IntRect, side: u32) -> Self {
-        Self { area, side: side.max(1) }
+        Self::with_size(area, side, side)
+    }
+
+    /// Cuts `area` into tiles of `width` × `height` pixels, each at least 1.
+    #[must_use]
+    pub fn with_size(area: IntRect, width: u32, height: u32) -> Self {
+        Self { area, width: width.max(1), height: height.max(1) }
     }
 
     /// All pixels.
@@ -30,44 +37,50 @@ impl TileGrid {
         self.area
     }
 
-    /// Pixels along the side of a whole tile.
+    /// Columns of pixels of a whole tile.
     #[must_use]
-    pub fn side(&self) -> u32 {
-        self.side
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows of pixels of a whole tile.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
     }
 
     /// Tiles side by side.
     #[must_use]
     pub fn columns(&self) -> usize {
-        self.area.width().div_ceil(self.side) as usize
+        self.area.width().div_ceil(self.width) as usize
     }
 
     /// Rows of tiles.
     #[must_use]
     pub fn bands(&self) -> usize {
-        self.area.height().div_ceil(self.side) as usize
+        self.area.height().div_ceil(self.height) as usize
     }
 
     /// The pixels of the tile at a column of a band; empty if there is no such tile.
     #[must_use]
     pub fn tile(&self, column: usize, band: usize) -> IntRect {
-        let range = |index: usize, low: i32, high: i32| {
+        let range = |index: usize, side: u32, [low, high]: [i32; 2]| {
             let at = |index: usize| {
-                let offset = index as i64 * i64::from(self.side);
+                let offset = index as i64 * i64::from(side);
                 (i64::from(low) + offset).min(i64::from(high)) as i32
             };
             (at(index), at(index.saturating_add(1)))
         };
-        let (x0, x1) = range(column.min(self.columns()), self.area.x0, self.area.x1);
-        let (y0, y1) = range(band.min(self.bands()), self.area.y0, self.area.y1);
+        let (x0, x1) = range(column.min(self.columns()), self.width, [self.area.x0, self.area.x1]);
+        let (y0, y1) = range(band.min(self.bands()), self.height, [self.area.y0, self.area.y1]);
         IntRect { x0, y0, x1, y1 }
     }
+}
 
-    /// The first and the last of the tiles, along one axis, that `low..high` touches; it lies in the
-    /// area and is not empty.
-    fn span(&self, origin: i32, low: i32, high: i32) -> [u32; 2] {
-        [low, high - 1].map(|v| v.abs_diff(origin) / self.side)
-    }
+/// The first and the last of the tiles, along one axis, that `low..high` touches; it lies in the area,
+/// which begins at `origin`, and is not empty.
+fn span(side: u32, origin: i32, low: i32, high: i32) -> [u32; 2] {
+    [low, high - 1].map(|v| v.abs_diff(origin) / side)
 }
 
 /// Which of many rectangles touch which tile, band by band from the top, so that memory does not
@@ -118,8 +131,8 @@ impl BandStarts {
         for (index, rect) in (first..).zip(rects) {
             let rect = rect.intersect(&grid.area);
             if !rect.is_empty() {
-                let columns = grid.span(grid.area.x0, rect.x0, rect.x1);
-                let [first_band, last_band] = grid.span(grid.area.y0, rect.y0, rect.y1);
+                let columns = span(grid.width, grid.area.x0, rect.x0, rect.x1);
+                let [first_band, last_band] = span(grid.height, grid.area.y0, rect.y0, rect.y1);
                 bands[first_band as usize].push(Entry { index, columns, last_band });
             }
         }

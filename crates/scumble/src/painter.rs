@@ -165,8 +165,9 @@ impl Sink for Painter<'_> {
         let color = match self.paint {
             Paint::Solid(color) => *color,
             paint => {
-                let fallback = || centroid(x, y, self.pattern(), mask);
-                paint.at(self.job.plan.surfaces, centre(x, y), fallback)
+                let middle = centre(x, y);
+                let fallback = || middle - 0.5 + self.pattern().centroid(mask);
+                paint.at(self.job.plan.surfaces, middle, fallback)
             }
         };
         let (lx, ly) = self.local(x, y);
@@ -227,15 +228,4 @@ pub(crate) fn centre(x: i32, y: i32) -> DVec2 {
 fn position(x: i32, y: i32, offset: [u8; 2]) -> DVec2 {
     let [dx, dy] = offset.map(|v| f64::from(v) / 256.0);
     DVec2::new(f64::from(x) + dx, f64::from(y) + dy)
-}
-
-/// The mean of the covered samples.
-fn centroid(x: i32, y: i32, pattern: &SamplePattern, mask: SampleMask) -> DVec2 {
-    let mut sum = DVec2::ZERO;
-    for (i, &offset) in pattern.offsets().iter().enumerate() {
-        if mask.0 >> i & 1 == 1 {
-            sum += position(x, y, offset);
-        }
-    }
-    sum / f64::from(mask.count())
 }

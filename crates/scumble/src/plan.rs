@@ -4,9 +4,10 @@ use crate::paint::{Paint, Textured};
 use crate::rows::Pool;
 use crate::{Antialias, Interpolation, Settings};
 use scumble_coverage::Shape;
+use scumble_framebuffer::Tile;
 use scumble_geometry::{
-    Affine, BandStarts, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Path, PathElement,
-    Ramp, Rect, TileBins, TileGrid, clip_segment, line_quad,
+    Affine, BandStarts, Contours, DVec2, DVec3, FillRule, Homography, IntRect, Ramp, Rect,
+    TileBins, TileGrid, clip_segment, line_quad,
 };
 use scumble_pixel::{Premul, Straight};
 use scumble_scene::{
@@ -28,6 +29,11 @@ pub(crate) struct Surface {
 /// in 255 at the worst, and of about one on most pixels that the curve crosses. Halving it costs 1.4
 /// times the points.
 const FLATNESS: f64 = 1.0 / 64.0;
+
+/// How many edges an outline has, in the mean, if tiles are to be wide; and how many times wider and
+/// lower they are then: of all shapes tried the quickest.
+const INTRICATE: u64 = 16;
+const STRETCH: [u32; 2] = [16, 2];
 
 /// What a point of an outline takes, at the most, with the edge that it begins.
 const EDGE_BYTES: u64 = 64;
@@ -158,6 +164,20 @@ impl Plan<'_> {
             draws as u64 + part.outline_bytes
         };
         self.parts.iter().map(of).fold(0, u64::saturating_add)
+    }
+
+    /// How the picture is cut into tiles.
+    pub(crate) fn grid(&self, area: IntRect, settings: &Settings) -> TileGrid {
+        let side = settings.tile_size;
+        let edges = self.parts.iter().map(|part| part.outline_bytes).sum::<u64>() / EDGE_BYTES;
+        // An outline of many edges takes less to find along a row than tile by tile.
+        let wide = settings.antialias == Antialias::Area
+            && edges > INTRICATE * self.len() as u64
+            && self.parts.iter().flat_map(|p| &p.draws).all(|d| d.effect <= Effect::Inlays);
+        if !wide {
+            return TileGrid::new(area, side);
+        }
+        TileGrid::with_size(area, (side * STRETCH[0]).min(Tile::MAX_SIDE), side / STRETCH[1])
     }
 
     /// The tiles that each primitive touches.
@@ -322,7 +342,7 @@ impl<'a> Planner<'a> {
     fn fill(&mut self, fill: &Fill) {
         let to_canvas = self.canvas_map(&fill.transform);
         let paint = Paint::Solid(self.import(fill.color));
-        if let Some(corners) = triangle(&fill.path) {
+        if let Some(corners) = fill.path.triangle() {
             let corners = corners.map(|p| to_canvas.project_homogeneous(p));
             return self.push_shape(Shape::projective(&corners, to_canvas.near_w()), paint);
         }
@@ -465,16 +485,5 @@ impl<'a> Planner<'a> {
         let surface = self.surfaces.get(image.0).and_then(Option::as_ref);
         let opaque = opacity >= 1.0 && surface.is_some_and(|surface| surface.opaque);
         Paint::Textured(Box::new(Textured { map, surface: image.0, sampler, opacity, opaque }))
-    }
-}
-
-/// The corners of a path that is a triangle and nothing else.
-fn triangle(path: &Path) -> Option<[DVec2; 3]> {
-    use PathElement::{Close, LineTo, MoveTo};
-    match *path.elements() {
-        [MoveTo(a), LineTo(b), LineTo(c)] | [MoveTo(a), LineTo(b), LineTo(c), Close] => {
-            Some([a, b, c])
-        }
-        _ => None,
     }
 }

@@ -78,7 +78,7 @@ fn draw<S: Sink>(
     let area = area(settings)?;
     let texture_bytes = textures.memory();
     let plan = plan::build(scene, settings, &textures.surfaces, pool);
-    let grid = TileGrid::new(area, settings.tile_size);
+    let grid = plan.grid(area, settings);
     let spare = check_memory(&plan, settings, &grid, pool.threads(), texture_bytes)?;
     let stats = Stats {
         width: area.width(),
@@ -150,7 +150,8 @@ fn check_memory<E>(
 ) -> Result<u64, RenderError<E>> {
     let (side, samples) = (settings.tile_size, settings.samples());
     let seen = Visibility::max_bytes(side, side, samples);
-    let tile = seen + Inlay::max_bytes(side, side) + Tile::max_bytes(side, side, samples);
+    let inlay = Inlay::max_bytes(grid.width(), grid.height());
+    let tile = seen + inlay + Tile::max_bytes(side, side, samples);
     let depth = plan.layers.iter().map(|layer| layer.depth).max().unwrap_or(1);
     let tiles = tile.saturating_mul(depth).saturating_mul(threads as u64);
     let rows = schedule::buffered_rows(grid, threads) as u64 * u64::from(grid.area().width()) * 4;

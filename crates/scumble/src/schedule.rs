@@ -19,7 +19,8 @@ fn bands_per_group(grid: &TileGrid, threads: usize) -> usize {
 /// Rows held in memory at once: one group being rendered, and with several threads one being handed over.
 pub(crate) fn buffered_rows(grid: &TileGrid, threads: usize) -> usize {
     threads.min(2)
-        * (bands_per_group(grid, threads) * grid.side() as usize).min(grid.area().height() as usize)
+        * (bands_per_group(grid, threads) * grid.height() as usize)
+            .min(grid.area().height() as usize)
 }
 
 /// Renders all bands and hands them to the sink, which takes one group of bands while the next
@@ -72,12 +73,13 @@ struct TileTask<'a> {
 impl Groups<'_> {
     /// The rows of some bands, counted from the top of the picture.
     fn rows(&self, bands: &Range<usize>) -> Range<u32> {
-        let end = |band: usize| (band as u32 * self.grid.side()).min(self.grid.area().height());
+        let end = |band: usize| (band as u32 * self.grid.height()).min(self.grid.area().height());
         end(bands.start)..end(bands.end)
     }
 
     fn render(&mut self, bands: Range<usize>, buffer: &mut Vec<[u8; 4]>) {
-        let (columns, side, grid) = (self.grid.columns(), self.grid.side() as usize, self.grid);
+        let (columns, grid) = (self.grid.columns(), self.grid);
+        let (across, side) = (grid.width() as usize, grid.height() as usize);
         let width = grid.area().width() as usize;
         buffer.resize(self.rows(&bands).len() * width, [0; 4]);
         self.lists.resize_with(bands.len() * columns, Vec::new);
@@ -97,7 +99,7 @@ impl Groups<'_> {
                 rows: Vec::with_capacity(side),
             }));
             for row in strip.chunks_mut(width) {
-                for (task, piece) in tasks[first..].iter_mut().zip(row.chunks_mut(side)) {
+                for (task, piece) in tasks[first..].iter_mut().zip(row.chunks_mut(across)) {
                     task.rows.push(piece);
                 }
             }

@@ -39,7 +39,7 @@ pub(crate) fn wanted<'a>(
     for (column, list) in lists.iter().enumerate() {
         for (&number, (draw, bounds)) in list.iter().zip(plan.draws(list)) {
             let clip = bounds.intersect(&band);
-            let column_of = |x: i32| (x.abs_diff(band.x0) / grid.side()) as usize;
+            let column_of = |x: i32| (x.abs_diff(band.x0) / grid.width()) as usize;
             // Each is looked at in its leftmost tile.
             if clip.is_empty() || column_of(clip.x0) != column || column_of(clip.x1 - 1) == column {
                 continue;
@@ -59,7 +59,7 @@ impl Wanted<'_> {
     /// Finds the strip, if `spare` bytes are enough for it.
     pub(crate) fn find(&mut self, grid: &TileGrid, spare: &AtomicU64, scratch: &mut Scratch) {
         let (width, height) = (u64::from(self.clip.width()), u64::from(self.clip.height()));
-        let mut strip = AreaStrip::new(grid.area().x0, grid.side(), grid.columns());
+        let mut strip = AreaStrip::new(grid.area().x0, grid.width(), grid.columns());
         let pixels = width.saturating_mul(height).saturating_mul(AreaStrip::PIXEL_BYTES as u64);
         let most = pixels.saturating_add(strip.bytes());
         let take = |left: u64| left.checked_sub(most);

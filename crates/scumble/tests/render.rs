@@ -7,7 +7,9 @@ use scumble::pixel::{Image, Straight};
 use scumble::scene::{
     Command, Fill, GouraudTriangle, ImageId, ImageQuad, ImageWrap, Point, Scene, SceneImage, View,
 };
-use scumble::{Background, Control, ImageSink, RenderError, Settings, Sink, render, render_image};
+use scumble::{
+    Antialias, Background, Control, ImageSink, RenderError, Settings, Sink, render, render_image,
+};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
@@ -282,6 +284,28 @@ fn any_command() -> impl Strategy<Value = Command> {
     prop_oneof![4 => fill, 2 => gouraud, 2 => image]
 }
 
+/// Outlines of many edges, in one colour each.
+fn any_rosettes() -> impl Strategy<Value = Vec<Command>> {
+    let radii = proptest::collection::vec(1.0..60.0f64, 17..90);
+    let color = proptest::array::uniform4(0.0..=1.0f32);
+    let rosette = (radii, -20.0..320.0f64, -20.0..110.0f64, color, any::<[bool; 2]>());
+    let command = rosette.prop_map(|(radii, x, y, mut color, [odd, opaque])| {
+        color[3] = if opaque { 1.0 } else { color[3] };
+        let step = std::f64::consts::TAU * 7.0 / radii.len() as f64;
+        let corner = |(i, r): (usize, f64)| {
+            let (sin, cos) = (step * i as f64).sin_cos();
+            DVec2::new(x + 3.0 * r * cos, y + r * sin)
+        };
+        Command::Fill(Fill {
+            path: Arc::new(Path::polyline(radii.into_iter().enumerate().map(corner), true)),
+            rule: if odd { FillRule::EvenOdd } else { FillRule::NonZero },
+            transform: Homography::IDENTITY,
+            color: Straight(color),
+        })
+    });
+    proptest::collection::vec(command, 1..8)
+}
+
 /// Commands with some of them in a group.
 fn any_scene() -> impl Strategy<Value = Scene> {
     (proptest::collection::vec(any_command(), 1..12), 0usize..12, 0usize..12).prop_map(
@@ -307,6 +331,36 @@ proptest! {
             settings.tile_size = tile_size;
             settings.threads = threads;
             prop_assert!(render_image(&scene, &settings).unwrap() == expected);
+        }
+    }
+
+    #[test]
+    fn outlines_by_area_are_the_same_in_tiles_of_any_shape(
+        mut commands in any_rosettes(), x in 0..290i32, y in 0..85i32,
+    ) {
+        let mut settings = Settings::new(300, 90);
+        settings.antialias = Antialias::Area;
+        settings.threads = 1;
+        let drawing = |commands| Scene { view: View::Fit { size: DVec2::new(300.0, 90.0) }, ..scene(commands) };
+        let wide = render_image(&drawing(commands.clone()), &settings).unwrap();
+        for (tile_size, threads) in [(8, 2), (20, 1), (256, 3)] {
+            let settings = Settings { tile_size, threads, ..settings.clone() };
+            prop_assert!(render_image(&drawing(commands.clone()), &settings).unwrap() == wide);
+        }
+        let crop = Some(IntRect::new(x, y, x + 120, y + 40));
+        let part = render_image(&drawing(commands.clone()), &Settings { crop, ..settings.clone() });
+        for (row, part) in wide.view().crop(x as usize, y as usize, 120, 40).rows().zip(part.unwrap().view().rows()) {
+            prop_assert_eq!(part, row);
+        }
+        // A colour that changes, in one corner, and all tiles are square.
+        commands.push(Command::Gouraud(GouraudTriangle {
+            points: [DVec2::ZERO, DVec2::X, DVec2::Y],
+            colors: [RED, BLUE, RED],
+            transform: Homography::IDENTITY,
+        }));
+        let square = render_image(&drawing(commands), &settings).unwrap();
+        for y in 1..90 {
+            prop_assert_eq!(square.row(y), wide.row(y));
         }
     }
 
