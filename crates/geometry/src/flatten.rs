@@ -5,10 +5,12 @@
 //! others, so the curve is cut in halves in homogeneous space, and a piece is straight enough when
 //! its *projected* control points lie so close to its projected chord that the curve, which is a
 //! mean of them with positive weights, lies within the tolerance. No estimate of the curvature is
-//! needed. Without perspective there is a good one ([`crate::chords`]). Only + − × ÷ √ and comparisons are used, so that the same path
-//! gives the same points everywhere, and the reversed path the same in reverse.
+//! needed. Without perspective there are better places for the points ([`crate::chords`]).
+//!
+//! Only + − × ÷ √ and comparisons are used, so that the same path gives the same points everywhere,
+//! and the reversed path the same in reverse.
 
-use crate::chords::push_chords;
+use crate::chords::Chords;
 use crate::path::Cursor;
 use crate::{Contours, DVec2, DVec3, Homography, Path, PathElement, clip_polygon};
 use alloc::vec::Vec;
@@ -26,7 +28,9 @@ impl Path {
     ///
     /// Curves become chords that leave the projected curve by at most `tolerance_px` (a tenth of a
     /// pixel is not visible; values below 2⁻¹⁰, NaN included, count as 2⁻¹⁰), within
-    /// [`Path::MAX_DEPTH`] and [`Path::MAX_POINTS`]. What lies entirely beyond ±2²¹ pixels on one
+    /// [`Path::MAX_DEPTH`] and [`Path::MAX_POINTS`]. Without perspective they do so on either side:
+    /// the points within a curve lie outside its bend, which takes fewer of them than points on the
+    /// curve, and comes nearer to its area. What lies entirely beyond ±2²¹ pixels on one
     /// side is not refined. Where a contour reaches behind the eye it is clipped at
     /// w = [`Homography::near_w`], and vanishes if nothing of it is in front.
     ///
@@ -34,21 +38,41 @@ impl Path {
     /// coordinate that is not finite.
     #[must_use]
     pub fn flatten(&self, transform: &Homography, tolerance_px: f64) -> Contours {
-        let mut flattener = Flattener::new(transform, tolerance_px);
+        let mut out = Contours::new();
+        self.flatten_into(transform, tolerance_px, &mut out);
+        out
+    }
+
+    /// As [`Path::flatten`], appended to contours, whose memory can be used again and again.
+    pub fn flatten_into(&self, transform: &Homography, tolerance_px: f64, out: &mut Contours) {
+        let tolerance = tolerance_px.max(LEAST_TOLERANCE_PX);
+        out.finish();
+        let limit = out.points.len() + Self::MAX_POINTS;
+        if has_perspective(transform) {
+            return self.walk(&mut Projected::new(transform, tolerance, limit, out));
+        }
+        let begin = out.points.len();
+        let chords = Chords::new(tolerance, 0.0, |_, _| true);
+        self.walk(&mut Flat { transform, chords, limit, begin, out });
+    }
+
+    /// Draws all contours.
+    fn walk(&self, pen: &mut impl Pen) {
         let mut cursor = Cursor::default();
         for element in self.elements() {
             let from = cursor.advance(element);
-            if matches!(element, PathElement::MoveTo(_)) {
-                flattener.finish();
-                continue;
-            }
-            flattener.step(from, element);
-            if matches!(element, PathElement::Close) {
-                flattener.finish();
+            match *element {
+                PathElement::MoveTo(_) => pen.finish(),
+                PathElement::LineTo(to) => pen.line(from, to),
+                PathElement::QuadTo(c, to) => pen.curve(&[from, c, to]),
+                PathElement::CubicTo(c0, c1, to) => pen.curve(&[from, c0, c1, to]),
+                PathElement::Close => {
+                    pen.start(from);
+                    pen.finish();
+                }
             }
         }
-        flattener.finish();
-        flattener.out
+        pen.finish();
     }
 }
 
@@ -58,71 +82,141 @@ const FAR_PX: f64 = (1u32 << 21) as f64;
 /// The least tolerance that is honoured: a quarter of the grid to which a rasterizer snaps.
 const LEAST_TOLERANCE_PX: f64 = 1.0 / 1024.0;
 
-struct Flattener<'a> {
-    transform: &'a Homography,
-    flatness: Flatness,
-    /// The contour under way, in homogeneous screen coordinates.
-    contour: Vec<DVec3>,
-    clipped: Vec<DVec3>,
-    out: Contours,
+/// Projects the contours from the given point and end on. In perspective they are clipped, and left
+/// out if they are not finite; else all are left out if one is not.
+pub(crate) fn project(out: &mut Contours, (point, end): (usize, usize), transform: &Homography) {
+    if !has_perspective(transform) {
+        let mut finite = true;
+        for p in &mut out.points[point..] {
+            *p = at(transform, *p);
+            finite &= p.is_finite();
+        }
+        if !finite {
+            out.points.truncate(point);
+            out.ends.truncate(end);
+        }
+        return;
+    }
+    let (points, ends) = (out.points.split_off(point), out.ends.split_off(end));
+    let mut pen = Projected::new(transform, LEAST_TOLERANCE_PX, 0, out);
+    let mut begin = point;
+    for end in ends {
+        for pair in points[begin - point..end - point].windows(2) {
+            pen.line(pair[0], pair[1]);
+        }
+        pen.finish();
+        begin = end;
+    }
 }
 
-impl<'a> Flattener<'a> {
-    fn new(transform: &'a Homography, tolerance_px: f64) -> Self {
-        let tolerance = tolerance_px.max(LEAST_TOLERANCE_PX);
-        Self {
-            transform,
-            flatness: Flatness { tolerance, near_w: transform.near_w() },
-            contour: Vec::new(),
-            clipped: Vec::new(),
-            out: Contours::new(),
+/// Whether w differs from point to point, or puts all points behind the eye.
+fn has_perspective(transform: &Homography) -> bool {
+    !(transform.is_affine() && transform.project_homogeneous(DVec2::ZERO).z >= transform.near_w())
+}
+
+/// The image of a point without perspective.
+fn at(transform: &Homography, p: DVec2) -> DVec2 {
+    let p = transform.project_homogeneous(p);
+    p.truncate() / p.z
+}
+
+/// What draws contours on the screen.
+trait Pen {
+    /// Begins a contour, unless one is under way.
+    fn start(&mut self, from: DVec2);
+    fn line(&mut self, from: DVec2, to: DVec2);
+    fn curve<const N: usize>(&mut self, curve: &[DVec2; N]);
+    /// Ends the contour under way, if there is one.
+    fn finish(&mut self);
+}
+
+/// Draws without perspective.
+struct Flat<'a, F> {
+    transform: &'a Homography,
+    chords: Chords<F>,
+    /// How many points there may be.
+    limit: usize,
+    /// Where the contour under way begins.
+    begin: usize,
+    out: &'a mut Contours,
+}
+
+impl<F: Fn(DVec2, DVec2) -> bool> Pen for Flat<'_, F> {
+    fn start(&mut self, from: DVec2) {
+        if self.out.points.len() == self.begin {
+            self.out.points.push(at(self.transform, from));
         }
     }
 
-    fn step(&mut self, from: DVec2, element: &PathElement) {
-        let start = self.at(from);
-        if self.contour.is_empty() {
-            self.contour.push(start);
+    fn line(&mut self, from: DVec2, to: DVec2) {
+        self.start(from);
+        self.out.points.push(at(self.transform, to));
+    }
+
+    fn curve<const N: usize>(&mut self, curve: &[DVec2; N]) {
+        self.start(curve[0]);
+        let curve = curve.map(|p| at(self.transform, p));
+        if is_far(&curve) {
+            return self.out.points.push(curve[N - 1]);
         }
-        match *element {
-            PathElement::QuadTo(c, to) => {
-                let curve = [start, self.at(c), self.at(to)];
-                self.curve(&curve);
-            }
-            PathElement::CubicTo(c0, c1, to) => {
-                let curve = [start, self.at(c0), self.at(c1), self.at(to)];
-                self.curve(&curve);
-            }
-            PathElement::LineTo(to) => {
-                let to = self.at(to);
-                self.contour.push(to);
-            }
-            PathElement::MoveTo(_) | PathElement::Close => {}
+        let room = self.limit.saturating_sub(self.out.points.len());
+        self.chords.push(&curve, room, &mut self.out.points);
+    }
+
+    fn finish(&mut self) {
+        let contour = &self.out.points[self.begin..];
+        if contour.len() >= 3 && contour.iter().all(|p| p.is_finite()) {
+            self.out.finish();
+        } else {
+            self.out.points.truncate(self.begin);
         }
+        self.begin = self.out.points.len();
+    }
+}
+
+/// Draws in perspective.
+struct Projected<'a> {
+    transform: &'a Homography,
+    flatness: Flatness,
+    /// How many points there may be.
+    limit: usize,
+    /// The contour under way, in homogeneous screen coordinates.
+    contour: Vec<DVec3>,
+    clipped: Vec<DVec3>,
+    out: &'a mut Contours,
+}
+
+impl<'a> Projected<'a> {
+    fn new(transform: &'a Homography, tolerance: f64, limit: usize, out: &'a mut Contours) -> Self {
+        let flatness = Flatness { tolerance, near_w: transform.near_w() };
+        Self { transform, flatness, limit, contour: Vec::new(), clipped: Vec::new(), out }
     }
 
     fn at(&self, p: DVec2) -> DVec3 {
         self.transform.project_homogeneous(p)
     }
+}
 
-    /// Pushes the points of a curve after its first.
-    fn curve<const N: usize>(&mut self, curve: &[DVec3; N]) {
-        let (flatness, contour) = (self.flatness, &mut self.contour);
-        let room = Path::MAX_POINTS.saturating_sub(contour.len() + self.out.points.len());
-        let limit = contour.len() + room;
-        let w = curve[0].z;
-        if w >= flatness.near_w && curve.iter().all(|p| p.z == w) {
-            if is_far(&curve.map(|p| p.truncate() / w)) {
-                return contour.push(curve[N - 1]);
-            }
-            let (curve, tolerance) = (curve.map(DVec3::truncate), flatness.tolerance * w);
-            let mut push = |p: DVec2| contour.push(p.extend(w));
-            return push_chords(&curve, tolerance, room.max(1) as u32, &mut push);
+impl Pen for Projected<'_> {
+    fn start(&mut self, from: DVec2) {
+        if self.contour.is_empty() {
+            self.contour.push(self.at(from));
         }
-        subdivide(curve, 0, &|c| flatness.allows(c), limit, contour);
     }
 
-    /// Ends the contour under way: clips it, projects it, appends it.
+    fn line(&mut self, from: DVec2, to: DVec2) {
+        self.start(from);
+        self.contour.push(self.at(to));
+    }
+
+    fn curve<const N: usize>(&mut self, curve: &[DVec2; N]) {
+        self.start(curve[0]);
+        let (flatness, curve) = (self.flatness, curve.map(|p| self.at(p)));
+        let limit = self.limit.saturating_sub(self.out.points.len());
+        subdivide(&curve, 0, &|c| flatness.allows(c), limit, &mut self.contour);
+    }
+
+    /// Clips the contour, projects it, appends it.
     fn finish(&mut self) {
         let near_w = self.flatness.near_w;
         let finite = self.contour.iter().all(|p| p.is_finite());

@@ -25,9 +25,10 @@ pub(crate) struct Surface {
     pub(crate) opaque: bool,
 }
 
-/// How far, in pixels, a chord may lie from its curve: a sixty-fourth is an error of four grey levels
-/// in 255 at the worst, and of about one on most pixels that the curve crosses. Halving it costs 1.4
-/// times the points.
+/// How far, in pixels, a chord may lie from its curve. A sixty-fourth is an error of four grey levels
+/// in 255 at the worst, and of one to two on most pixels that the curve crosses (measured on discs
+/// of 20 and 200 pixels: 2.9 and 4.1 at the worst, 1.1 and 1.6 on average). It goes either way, and
+/// three tenths of it are left on average, inwards. Halving it costs 1.4 times the points.
 const FLATNESS: f64 = 1.0 / 64.0;
 
 /// How many edges an outline has, in the mean, if tiles are to be wide; and how many times wider and
@@ -213,6 +214,8 @@ struct Planner<'a> {
     layer: u32,
     /// The last transform, and what came of it: most have the one of the primitive before.
     last: Option<(Homography, Homography)>,
+    /// Empty, but for the outline in hand: its memory serves one after the other.
+    contours: Contours,
     part: Part,
 }
 
@@ -225,6 +228,7 @@ impl<'a> Planner<'a> {
             canvas: IntRect::new(0, 0, settings.width as i32, settings.height as i32),
             layer: 0,
             last: None,
+            contours: Contours::new(),
             part: Part::default(),
         }
     }
@@ -333,10 +337,10 @@ impl<'a> Planner<'a> {
         }
     }
 
-    fn push_contours(&mut self, contours: &Contours, rule: FillRule, paint: Paint) {
-        self.part.outline_bytes += contours.points.len() as u64 * EDGE_BYTES;
-        let shape = Shape::polygon(contours.iter(), rule).ok().flatten();
-        self.push_shape(shape, paint);
+    fn push_contours(&mut self, rule: FillRule, paint: Paint) {
+        self.part.outline_bytes += self.contours.points.len() as u64 * EDGE_BYTES;
+        self.push_shape(Shape::polygon(self.contours.iter(), rule).ok().flatten(), paint);
+        self.contours.clear();
     }
 
     fn fill(&mut self, fill: &Fill) {
@@ -346,16 +350,15 @@ impl<'a> Planner<'a> {
             let corners = corners.map(|p| to_canvas.project_homogeneous(p));
             return self.push_shape(Shape::projective(&corners, to_canvas.near_w()), paint);
         }
-        let contours = fill.path.flatten(&to_canvas, FLATNESS);
-        self.push_contours(&contours, fill.rule, paint);
+        fill.path.flatten_into(&to_canvas, FLATNESS, &mut self.contours);
+        self.push_contours(fill.rule, paint);
     }
 
     fn stroke(&mut self, stroke: &Stroke) {
         let to_canvas = self.canvas_map(&stroke.transform);
-        let outline =
-            stroke.path.stroke(&stroke.style, FLATNESS / stroke.largest_scale(&to_canvas));
-        let paint = Paint::Solid(self.import(stroke.color));
-        self.push_contours(&outline.flatten(&to_canvas, FLATNESS), FillRule::NonZero, paint);
+        let tolerance = FLATNESS / stroke.largest_scale(&to_canvas);
+        stroke.path.stroke_into(&stroke.style, tolerance, &to_canvas, &mut self.contours);
+        self.push_contours(FillRule::NonZero, Paint::Solid(self.import(stroke.color)));
     }
 
     fn gouraud(&mut self, triangle: &GouraudTriangle) {

@@ -1,4 +1,6 @@
-use crate::flatten::{distance_squared, inner_share, subdivide};
+use super::Bends;
+use crate::chords::Chords;
+use crate::math::sqrt;
 use crate::path::Cursor;
 use crate::{DVec2, Path, PathElement};
 use alloc::vec::Vec;
@@ -17,7 +19,16 @@ pub(super) struct Segment {
 
 impl Segment {
     pub(super) fn length(&self) -> f64 {
-        (self.to - self.from).length()
+        sqrt(self.length_squared())
+    }
+
+    pub(super) fn length_squared(&self) -> f64 {
+        (self.to - self.from).length_squared()
+    }
+
+    /// Whether it has no length.
+    pub(super) fn is_point(&self) -> bool {
+        self.from == self.to
     }
 }
 
@@ -29,14 +40,15 @@ pub(super) struct Chain {
 }
 
 impl Chain {
-    /// The contours of a path, for a stroke of the given half-width.
-    pub(super) fn of_path(path: &Path, radius: f64, tolerance: f64) -> Vec<Self> {
+    /// Draws the contours of a path, one after the other.
+    pub(super) fn each_of_path(path: &Path, bends: Bends, draw: impl FnMut(&Self)) {
+        let fits = |tangent, chord| bends.end_fits(tangent, chord);
         let mut builder = Builder {
-            radius,
-            tolerance,
-            segments: Vec::new(),
+            chords: Chords::new(bends.tolerance, bends.radius, fits),
+            points: Vec::new(),
+            chain: Self { segments: Vec::new(), closed: false },
             start: None,
-            chains: Vec::new(),
+            draw,
             count: 0,
         };
         let mut cursor = Cursor::default();
@@ -45,7 +57,6 @@ impl Chain {
             builder.step(from, element);
         }
         builder.finish(false);
-        builder.chains
     }
 
     fn is_finite(&self) -> bool {
@@ -55,19 +66,20 @@ impl Chain {
     }
 }
 
-struct Builder {
-    /// Half the width of the stroke.
-    radius: f64,
-    tolerance: f64,
-    segments: Vec<Segment>,
-    /// Where the contour under way began, once something was drawn.
+struct Builder<F, D> {
+    chords: Chords<F>,
+    /// The points of a curve.
+    points: Vec<DVec2>,
+    /// The contour under way.
+    chain: Chain,
+    /// Where it began, once something was drawn.
     start: Option<DVec2>,
-    chains: Vec<Chain>,
-    /// Points of all finished contours.
+    draw: D,
+    /// Segments of all finished contours.
     count: usize,
 }
 
-impl Builder {
+impl<F: Fn(DVec2, DVec2) -> bool, D: FnMut(&Chain)> Builder<F, D> {
     fn step(&mut self, from: DVec2, element: &PathElement) {
         if matches!(element, PathElement::MoveTo(_)) {
             self.finish(false);
@@ -90,7 +102,7 @@ impl Builder {
     fn line(&mut self, from: DVec2, to: DVec2, smooth: bool) {
         if from != to {
             let direction = unit(to - from);
-            self.segments.push(Segment { from, to, direction, smooth });
+            self.chain.segments.push(Segment { from, to, direction, smooth });
         }
     }
 
@@ -105,28 +117,8 @@ impl Builder {
     ) {
         if let Some(&other) = towards.find(|&&p| p != at) {
             let direction = unit(other - at) * sign;
-            self.segments.push(Segment { from: at, to: at, direction, smooth });
+            self.chain.segments.push(Segment { from: at, to: at, direction, smooth });
         }
-    }
-
-    /// Whether the chord can stand for a piece of a curve, or of its end: there the chord's sides
-    /// must not stick out beyond the true end either, by turning away from the tangent.
-    fn is_flat<const N: usize>(&self, piece: &[DVec2; N], is_end: bool) -> bool {
-        // Non-finite curves are left out later: do not refine them.
-        if piece.iter().any(|p| !p.is_finite()) {
-            return true;
-        }
-        let (from, to) = (piece[0], piece[N - 1]);
-        let chord = to - from;
-        let reach = self.tolerance / inner_share::<N>();
-        let near = |&p: &DVec2| distance_squared(p, from, to) <= reach * reach;
-        // |sine of the angle| · radius ≤ tolerance.
-        let straight = |leg: DVec2| {
-            let sine = leg.perp_dot(chord).abs() * self.radius;
-            sine <= self.tolerance * leg.length() * chord.length()
-        };
-        let ends_straight = || straight(piece[1] - from) && straight(to - piece[N - 2]);
-        piece[1..N - 1].iter().all(near) && (!is_end || ends_straight())
     }
 
     fn curve<const N: usize>(&mut self, curve: &[DVec2; N]) {
@@ -134,38 +126,46 @@ impl Builder {
         if curve.iter().all(|&p| p == first) {
             return;
         }
-        let is_flat = |c: &[DVec2; N]| self.is_flat(c, c[0] == first || c[N - 1] == last);
-        let limit = Path::MAX_POINTS.saturating_sub(self.count + self.segments.len());
-        let mut points = Vec::new();
-        subdivide(curve, 0, &is_flat, limit, &mut points);
+        let room = Path::MAX_POINTS.saturating_sub(self.count + self.chain.segments.len());
+        let mut points = core::mem::take(&mut self.points);
+        self.chords.push(curve, room, &mut points);
 
         self.tangent(first, curve[1..].iter(), 1.0, false);
         let mut from = first;
-        for to in points {
+        for &to in &points {
             self.line(from, to, true);
             from = to;
         }
         self.tangent(last, curve[..N - 1].iter().rev(), -1.0, true);
+        points.clear();
+        self.points = points;
     }
 
     fn finish(&mut self, closed: bool) {
-        let mut segments = core::mem::take(&mut self.segments);
+        let segments = &mut self.chain.segments;
         self.count += segments.len();
-        let Some(start) = self.start.take() else { return };
-        if segments.is_empty() {
-            // Drawn to nowhere: a dot, which lies along x.
-            segments.push(Segment { from: start, to: start, direction: DVec2::X, smooth: false });
+        if let Some(start) = self.start.take() {
+            if segments.is_empty() {
+                // Drawn to nowhere: a dot, which lies along x.
+                let direction = DVec2::X;
+                segments.push(Segment { from: start, to: start, direction, smooth: false });
+            }
+            let is_dot = segments.iter().all(Segment::is_point);
+            self.chain.closed = closed && !is_dot;
+            if self.chain.is_finite() {
+                (self.draw)(&self.chain);
+            }
         }
-        let is_dot = segments.iter().all(|s| s.from == s.to);
-        let chain = Chain { segments, closed: closed && !is_dot };
-        if chain.is_finite() {
-            self.chains.push(chain);
-        }
+        self.chain.segments.clear();
     }
 }
 
 /// The unit vector of a direction, without overflow or underflow on the way.
-fn unit(v: DVec2) -> DVec2 {
+pub(super) fn unit(v: DVec2) -> DVec2 {
+    let squared = v.length_squared();
+    if squared > f64::MIN_POSITIVE / f64::EPSILON && squared < f64::MAX {
+        return v / sqrt(squared);
+    }
     let scaled = v / v.abs().max_element();
     scaled / scaled.length()
 }

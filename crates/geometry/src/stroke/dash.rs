@@ -61,6 +61,9 @@ impl<'a> Pattern<'a> {
 
 /// The dashes of a contour; `None` if it is not dashed.
 pub(super) fn dash(chain: &Chain, style: &StrokeStyle) -> Option<Vec<Chain>> {
+    if style.dashes.is_empty() {
+        return None;
+    }
     let length: f64 = chain.segments.iter().map(Segment::length).sum();
     let mut pattern = Pattern::new(style, length)?;
     let started_on = pattern.on;

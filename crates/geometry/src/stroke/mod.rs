@@ -2,9 +2,10 @@ mod chain;
 mod dash;
 mod outline;
 
-use crate::Path;
+use crate::flatten::project;
+use crate::{Contours, DVec2, Homography, Path, PathElement};
 use alloc::vec::Vec;
-use chain::Chain;
+use chain::{Chain, unit};
 use outline::Outliner;
 
 /// How the corners of a stroke look.
@@ -79,7 +80,7 @@ impl Path {
     /// Curves, round joins and round caps are drawn by chords within about `tolerance` (in the
     /// path's units) of the true outline; a tolerance below 2⁻¹² of the width, NaN included,
     /// counts as that.
-    /// The outline is the sum of one rectangle per chord and one wedge per join, all of which
+    /// The outline is the sum of one quadrilateral per chord and one wedge per join, all of which
     /// turn the same way, so that it has no holes however tight the curve. A contour without
     /// length becomes a dot if the caps are round or square, as in SVG.
     ///
@@ -89,17 +90,88 @@ impl Path {
     /// are left out.
     #[must_use]
     pub fn stroke(&self, style: &StrokeStyle, tolerance: f64) -> Self {
-        if !(style.width > 0.0 && style.width.is_finite()) {
-            return Self::new();
-        }
-        let tolerance = tolerance.max(style.width / 4096.0);
-        let mut outliner = Outliner::new(style, tolerance);
-        for chain in Chain::of_path(self, style.width * 0.5, tolerance) {
-            match dash::dash(&chain, style) {
-                Some(dashes) => dashes.iter().for_each(|dash| outliner.draw(dash)),
-                None => outliner.draw(&chain),
+        let mut outline = Contours::new();
+        self.outline(style, tolerance, &mut outline);
+        let mut path = Self::new();
+        for contour in outline.iter() {
+            for (i, &p) in contour.iter().enumerate() {
+                path.push(if i == 0 { PathElement::MoveTo(p) } else { PathElement::LineTo(p) });
             }
+            path.close();
         }
-        outliner.finish()
+        path
+    }
+
+    /// The outline of the path's stroke on the screen, appended to contours, whose memory can be used
+    /// again and again: as [`Path::stroke`], which takes the tolerance, and [`Path::flatten`] make it.
+    pub fn stroke_into(
+        &self,
+        style: &StrokeStyle,
+        tolerance: f64,
+        transform: &Homography,
+        out: &mut Contours,
+    ) {
+        out.finish();
+        let begin = (out.points.len(), out.ends.len());
+        self.outline(style, tolerance, out);
+        project(out, begin, transform);
+    }
+
+    /// Appends the outline of the stroke, in the path's units.
+    fn outline(&self, style: &StrokeStyle, tolerance: f64, out: &mut Contours) {
+        if !(style.width > 0.0 && style.width.is_finite()) {
+            return;
+        }
+        let bends = Bends::new(style.width * 0.5, tolerance.max(style.width / 4096.0));
+        let mut outliner = Outliner::new(style, bends, out);
+        Chain::each_of_path(self, bends, |chain| match dash::dash(chain, style) {
+            Some(dashes) => dashes.iter().for_each(|dash| outliner.draw(dash)),
+            None => outliner.draw(chain),
+        });
+    }
+}
+
+/// The least cosine of half the angle between two segments that are joined by one point.
+const WIDEST_BEND: f64 = 0.9375;
+
+/// Where the sides of two segments may meet in one point, without an arc.
+#[derive(Debug, Clone, Copy)]
+struct Bends {
+    radius: f64,
+    tolerance: f64,
+    /// The least cosine of half the angle.
+    half_cosine: f64,
+}
+
+impl Bends {
+    fn new(radius: f64, tolerance: f64) -> Self {
+        // The tangents meet radius·(1/cos(θ/2) − 1) beyond the arc.
+        let half_cosine = (1.0 / (1.0 + tolerance / radius)).max(WIDEST_BEND);
+        Self { radius, tolerance, half_cosine }
+    }
+
+    /// Whether the sides of two segments, with these normals and lengths, meet near enough to their
+    /// arc, and no sooner on the inner side than the segments are long.
+    fn fits(&self, n0: DVec2, n1: DVec2, shorter_squared: f64) -> bool {
+        let least_cosine = 2.0 * self.half_cosine * self.half_cosine - 1.0;
+        // More than the sides lose on the inner side.
+        let lost = (n1 - n0).length_squared() * (self.radius * self.radius);
+        n0.dot(n1) >= least_cosine && shorter_squared >= lost
+    }
+
+    /// The same for the first or last chord of a curve, which has the sides begin square to the
+    /// tangent: as if the curve went on on the other side.
+    fn fits_tangent(&self, n0: DVec2, n1: DVec2, length_squared: f64) -> bool {
+        let lost = (n1 - n0).length_squared() * (4.0 * self.radius * self.radius);
+        n0.dot(n1) >= self.half_cosine && length_squared >= lost
+    }
+
+    /// Whether a curve may end with a chord, given its tangent there: if the sides can begin square to
+    /// that, or if those of the chord do not stick out beyond the end.
+    fn end_fits(&self, tangent: DVec2, chord: DVec2) -> bool {
+        let (t, c) = (unit(tangent), unit(chord));
+        let sine = t.perp_dot(c).abs();
+        let straight = t.dot(c) > 0.0 && sine * self.radius <= self.tolerance;
+        straight || self.fits_tangent(t, c, chord.length_squared())
     }
 }

@@ -1,7 +1,7 @@
 use super::chain::{Chain, Segment};
-use super::{Cap, Join, StrokeStyle};
+use super::{Bends, Cap, Join, StrokeStyle};
 use crate::math::sqrt;
-use crate::{DVec2, Path, PathElement};
+use crate::{Contours, DVec2};
 use alloc::vec::Vec;
 
 /// How often an arc is halved at most: a semicircle becomes at most 1024 chords.
@@ -11,14 +11,11 @@ const MAX_ARC_DEPTH: u32 = 10;
 /// memory on hostile input.
 const MAX_ROUND_POINTS: usize = 1 << 22;
 
-/// The least cosine of half the angle between two segments that are joined by one point.
-const WIDEST_BEND: f64 = 0.9375;
-
 /// Draws the outlines of chains.
 ///
 /// A chain's outline runs along its left side and back along its right side. At a join the outer
 /// side gets the join's shape and the inner one goes through the corner itself (or past it, where
-/// that makes no difference); so the outline is, as a sum of closed curves, one rectangle per
+/// that makes no difference); so the outline is, as a sum of closed curves, one quadrilateral per
 /// segment and one wedge per join, all clockwise to the eye, and winds around every point of the
 /// stroke at least once.
 pub(super) struct Outliner<'a> {
@@ -26,13 +23,12 @@ pub(super) struct Outliner<'a> {
     radius: f64,
     /// The least cosine between two normals whose chord is near enough to their arc.
     least_cosine: f64,
-    /// The least cosine between two normals whose tangents meet near enough to their arc.
-    least_bend: f64,
+    bends: Bends,
     /// Whether the sides of the segment before end where those of the next one begin.
     bent: bool,
     left: Vec<DVec2>,
     right: Vec<DVec2>,
-    out: Path,
+    out: &'a mut Contours,
 }
 
 /// To the left of the direction of travel, as the eye sees it (y down).
@@ -41,20 +37,12 @@ fn left_of(v: DVec2) -> DVec2 {
 }
 
 impl<'a> Outliner<'a> {
-    pub(super) fn new(style: &'a StrokeStyle, tolerance: f64) -> Self {
-        let radius = style.width * 0.5;
+    pub(super) fn new(style: &'a StrokeStyle, bends: Bends, out: &'a mut Contours) -> Self {
         // Sagitta of a chord: radius·(1 − cos(θ/2)); and cos θ = 2·cos²(θ/2) − 1.
-        let half_cosine = (1.0 - tolerance / radius).clamp(0.0, 1.0);
+        let half_cosine = (1.0 - bends.tolerance / bends.radius).clamp(0.0, 1.0);
         let least_cosine = 2.0 * half_cosine * half_cosine - 1.0;
-        // The tangents meet radius·(1/cos(θ/2) − 1) beyond the arc.
-        let half_cosine = (1.0 / (1.0 + tolerance / radius)).max(WIDEST_BEND);
-        let least_bend = 2.0 * half_cosine * half_cosine - 1.0;
         let (left, right) = (Vec::new(), Vec::new());
-        Self { style, radius, least_cosine, least_bend, bent: false, left, right, out: Path::new() }
-    }
-
-    pub(super) fn finish(self) -> Path {
-        self.out
+        Self { style, radius: bends.radius, least_cosine, bends, bent: false, left, right, out }
     }
 
     pub(super) fn draw(&mut self, chain: &Chain) {
@@ -74,20 +62,25 @@ impl<'a> Outliner<'a> {
         self.bent = false;
         if chain.closed {
             self.join(last, first);
-            let (left, right) = (self.left.split_off(0), self.right.split_off(0));
-            self.contour(left.into_iter());
-            self.contour(right.into_iter().rev());
-            return;
+            contour(self.out, |out| out.append(&mut self.left));
+            return contour(self.out, |out| out.extend(self.right.iter().rev()));
         }
-        let is_dot = chain.segments.iter().all(|s| s.from == s.to);
+        let is_dot = chain.segments.iter().all(Segment::is_point);
         if is_dot && self.style.cap == Cap::Butt {
             return;
         }
-        let mut outline = self.left.split_off(0);
-        self.cap(last.to, last.direction, &mut outline);
-        outline.extend(self.right.drain(..).rev());
-        self.cap(first.from, -first.direction, &mut outline);
-        self.contour(outline.into_iter());
+        // The caps' points after the sides that they follow: all the way around.
+        let mut side = core::mem::take(&mut self.left);
+        self.cap(last.to, last.direction, &mut side);
+        self.left = side;
+        self.right.reverse();
+        let mut side = core::mem::take(&mut self.right);
+        self.cap(first.from, -first.direction, &mut side);
+        self.right = side;
+        contour(self.out, |out| {
+            out.append(&mut self.left);
+            out.append(&mut self.right);
+        });
     }
 
     /// The two sides of a segment.
@@ -104,15 +97,23 @@ impl<'a> Outliner<'a> {
     /// Joins two segments of a curve by one point on either side, where their sides meet, if that
     /// is as good as the arc. Tells whether it did.
     fn bend(&mut self, before: &Segment, after: &Segment) -> bool {
-        let (n0, n1) = (left_of(before.direction), left_of(after.direction));
-        let cosine = n0.dot(n1);
-        // More than the sides lose on the inner side.
-        let lost = (n1 - n0).length() * self.radius;
-        let fits = cosine >= self.least_bend && before.length() >= lost && after.length() >= lost;
-        if !(after.smooth && fits) {
+        if !after.smooth {
             return false;
         }
-        let tip = (n0 + n1) * (self.radius / (1.0 + cosine));
+        let (n0, n1) = (left_of(before.direction), left_of(after.direction));
+        let lengths = [before.length_squared(), after.length_squared()];
+        let tip = if lengths[0] == 0.0 || lengths[1] == 0.0 {
+            // The end of the curve, with its true direction: there the sides begin and end.
+            if !self.bends.fits_tangent(n0, n1, lengths[0].max(lengths[1])) {
+                return false;
+            }
+            (if lengths[0] == 0.0 { n0 } else { n1 }) * self.radius
+        } else {
+            if !self.bends.fits(n0, n1, lengths[0].min(lengths[1])) {
+                return false;
+            }
+            (n0 + n1) * (self.radius / (1.0 + n0.dot(n1)))
+        };
         for (side, tip) in [(&mut self.left, tip), (&mut self.right, -tip)] {
             side.pop();
             side.push(after.from + tip);
@@ -175,7 +176,7 @@ impl<'a> Outliner<'a> {
     /// close that chords can stand for the arc.
     fn arc(&self, n0: DVec2, n1: DVec2, clockwise: bool, depth: u32, push: &mut dyn FnMut(DVec2)) {
         let cosine = n0.dot(n1);
-        let points = self.out.elements().len() + self.left.len() + self.right.len();
+        let points = self.out.points.len() + self.left.len() + self.right.len();
         if depth >= MAX_ARC_DEPTH || cosine >= self.least_cosine || points >= MAX_ROUND_POINTS {
             return;
         }
@@ -193,16 +194,23 @@ impl<'a> Outliner<'a> {
         push(middle);
         self.arc(middle, n1, clockwise, depth + 1, push);
     }
+}
 
-    /// Appends a closed contour, without repeated points; none if a number overflowed.
-    fn contour(&mut self, points: impl Iterator<Item = DVec2>) {
-        let mut points: Vec<DVec2> = points.collect();
-        points.dedup();
-        if points.iter().all(|p| p.is_finite()) && points.len() >= 3 {
-            for (i, &p) in points.iter().enumerate() {
-                self.out.push(if i == 0 { PathElement::MoveTo(p) } else { PathElement::LineTo(p) });
-            }
-            self.out.close();
+/// Appends a contour without repeated points; none if a number overflowed.
+fn contour(out: &mut Contours, push: impl FnOnce(&mut Vec<DVec2>)) {
+    let begin = out.points.len();
+    push(&mut out.points);
+    let mut end = begin;
+    for i in begin..out.points.len() {
+        let p = out.points[i];
+        if !p.is_finite() {
+            return out.points.truncate(begin);
+        }
+        if end == begin || out.points[end - 1] != p {
+            out.points[end] = p;
+            end += 1;
         }
     }
+    out.points.truncate(if end - begin >= 3 { end } else { begin });
+    out.finish();
 }
