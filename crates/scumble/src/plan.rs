@@ -369,9 +369,8 @@ impl<'a> Planner<'a> {
             Some(Paint::Solid(self.import(a)))
         } else {
             let colors = triangle.colors.map(|color| self.import(color).0);
-            Ramp::new(self.attribute_corners(corners), colors)
-                .ok()
-                .map(|ramp| Paint::Gouraud(Box::new(ramp)))
+            let ramp = Ramp::new(self.attribute_corners(corners), colors);
+            ramp.ok().map(|ramp| Paint::Gouraud(Box::new(ramp)))
         };
         if let Some(paint) = paint {
             self.push_shape(Shape::projective(&corners, to_canvas.near_w()), paint);
