@@ -79,7 +79,8 @@ pub struct Settings {
     pub interpolation: Interpolation,
     /// How many threads to use; 0 is one for each processor. Without the feature `parallel`, one.
     pub threads: usize,
-    /// Side of a tile in pixels, 8 to 256. It changes the time and the memory, never a byte.
+    /// Side of a tile in pixels, 8 to 256. It changes the time and the memory, never a byte. (Drawings of
+    /// intricate outlines by area are cut into tiles sixteen times as wide and half as high.)
     pub tile_size: u32,
     /// The most bytes that textures, geometry and buffers together may take.
     pub max_memory: u64,
