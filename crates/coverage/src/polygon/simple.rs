@@ -108,12 +108,13 @@ pub(super) fn unproven_rows(edges: &[PolygonEdge], chains: &[Chain]) -> Vec<Rang
             walk.advance(edges, y);
             live.push(walk);
         }
-        sort(&mut live);
+        let moves = sort(&mut live, patience);
         let begins = waiting.last().map_or(i32::MAX, |walk| walk.top);
         let next = live.iter().fold(begins, |y, walk| y.min(walk.bottom));
+        patience = patience.saturating_sub(live.len() + moves);
         let mut strip = Strip { edges, y, next, patience, proven: true, sign: 0 };
         strip.look(&live);
-        patience = strip.patience.saturating_sub(live.len());
+        patience = strip.patience;
         if patience == 0 {
             let bottom = edges.iter().fold(y, |y, e| y.max(e.y1));
             push(&mut unproven, y, bottom);
@@ -142,17 +143,24 @@ fn push(rows: &mut Vec<Range<i32>>, top: i32, bottom: i32) {
     }
 }
 
-/// Sorts what is nearly sorted from left to right.
-fn sort(live: &mut [Walk]) {
+/// Sorts what is nearly sorted from left to right, unless that takes `most` moves. Says how many it
+/// took.
+fn sort(live: &mut [Walk], most: usize) -> usize {
+    let mut moves = 0;
     for i in 1..live.len() {
+        if moves >= most {
+            break;
+        }
         let walk = live[i];
         let mut place = i;
         while place > 0 && live[place - 1].is_right_of(&walk) {
             live[place] = live[place - 1];
             place -= 1;
+            moves += 1;
         }
         live[place] = walk;
     }
+    moves
 }
 
 /// The heights from `y` to `next`, between which no chain begins or ends.
