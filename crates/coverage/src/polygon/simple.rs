@@ -10,8 +10,9 @@
 //! which the proof fails is merely drawn with more care.
 
 use super::PolygonEdge;
+use super::strips::sort;
 use alloc::vec::Vec;
-use core::cmp::Reverse;
+use core::cmp::{Ordering, Reverse};
 use core::ops::Range;
 
 /// Edges of one contour that follow each other and run the same way, up or down.
@@ -82,8 +83,9 @@ impl Walk {
         true
     }
 
-    fn is_right_of(&self, other: &Self) -> bool {
-        self.x > other.x || self.x == other.x && self.run > other.run
+    /// From left to right, those that meet as they go on.
+    fn order(&self, other: &Self) -> Ordering {
+        self.x.total_cmp(&other.x).then(self.run.total_cmp(&other.run))
     }
 }
 
@@ -108,10 +110,10 @@ pub(super) fn unproven_rows(edges: &[PolygonEdge], chains: &[Chain]) -> Vec<Rang
             walk.advance(edges, y);
             live.push(walk);
         }
-        let moves = sort(&mut live, patience);
+        sort(&mut live, Walk::order);
         let begins = waiting.last().map_or(i32::MAX, |walk| walk.top);
         let next = live.iter().fold(begins, |y, walk| y.min(walk.bottom));
-        patience = patience.saturating_sub(live.len() + moves);
+        patience = patience.saturating_sub(live.len());
         let mut strip = Strip { edges, y, next, patience, proven: true, sign: 0 };
         strip.look(&live);
         patience = strip.patience;
@@ -141,26 +143,6 @@ fn push(rows: &mut Vec<Range<i32>>, top: i32, bottom: i32) {
         Some(last) if from <= last.end => last.end = last.end.max(end),
         _ => rows.push(from..end),
     }
-}
-
-/// Sorts what is nearly sorted from left to right, unless that takes `most` moves. Says how many it
-/// took.
-fn sort(live: &mut [Walk], most: usize) -> usize {
-    let mut moves = 0;
-    for i in 1..live.len() {
-        if moves >= most {
-            break;
-        }
-        let walk = live[i];
-        let mut place = i;
-        while place > 0 && live[place - 1].is_right_of(&walk) {
-            live[place] = live[place - 1];
-            place -= 1;
-            moves += 1;
-        }
-        live[place] = walk;
-    }
-    moves
 }
 
 /// The heights from `y` to `next`, between which no chain begins or ends.

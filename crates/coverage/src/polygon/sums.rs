@@ -118,16 +118,12 @@ impl RowSums {
             return;
         }
         self.used = true;
-        let weight = f64::from(winding);
-        let (from_x, to_x) = (first.max(self.x0), last.min(right - 1));
-        let (column, end) = ((from_x - self.x0) as usize, (to_x - self.x0) as usize);
-        self.mark(column, end);
         self.met.push(Met { edge: place, first, last });
         let height = ((to - from) as u64) << if winding > 0 { 0 } else { UP };
         // What goes on beyond the right side is not known to be plain.
         let cut = if last >= right { NOT_PLAIN } else { 0 };
-        self.heights[column] += height + cut;
-        self.add_long(simd, (column, end), reach, weight);
+        self.heights[(first.max(self.x0) - self.x0) as usize] += height + cut;
+        self.add_long(simd, (first, last), reach, f64::from(winding));
     }
 
     /// Adds what lies left of all pixels to the winding number there.
@@ -173,21 +169,22 @@ impl RowSums {
             self.before += reach.height;
             return;
         }
-        let (from_x, to_x) = (first.max(self.x0), last.min(right - 1));
-        let (column, end) = ((from_x - self.x0) as usize, (to_x - self.x0) as usize);
-        self.mark(column, end);
-        self.add_long(simd, (column, end), reach, 1.0);
+        self.add_long(simd, (first, last), reach, 1.0);
     }
 
-    /// Adds an edge that touches some pixels.
+    /// Adds an edge that touches the pixels from `first` to `last`, some of them here.
     #[inline(always)]
     fn add_long<S: Simd>(
         &mut self,
         simd: S,
-        (column, end): (usize, usize),
+        (first, last): (i32, i32),
         reach: &Reach,
         weight: f64,
     ) {
+        let (first, last) = (first - self.x0, last - self.x0);
+        let column = first.max(0) as usize;
+        let end = last.min(self.chunks as i32 * CHUNK - 1) as usize;
+        self.mark(column, end);
         // The last is the area of the pixel before. Beyond the edge all are the same.
         let mut before = splat(simd, 0.0);
         for at in (column..end + 2).step_by(8) {
