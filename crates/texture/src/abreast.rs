@@ -21,7 +21,7 @@ use fearless_simd::{
 const QUADS: usize = 24;
 
 /// The columns and rows of a quad.
-const QUAD: [i32; 2] = [LANES as i32, 1];
+pub(crate) const QUAD: [i32; 2] = [LANES as i32, 1];
 
 /// An exponent beyond every cut.
 pub(crate) const NOTHING: f32 = 16.0;
@@ -91,31 +91,70 @@ pub(crate) fn walk_all<S: Simd>(
     out: &mut [[f32; 4]; ABREAST],
 ) {
     let walk = mask32x16::from_bitmask(simd, wanted);
-    let texels = &level.texels;
     let groups = walk.select(walks.groups, i32x16::splat(simd, 0));
     let small = wanted & !walks.small.to_bitmask() == 0;
-    let mut sums =
-        if small { Sums::Small([[0; 4]; ABREAST]) } else { Sums::Large([[0.0; 4]; ABREAST]) };
-    let mut totals = i32x16::splat(simd, 0);
-    let mut used = 0;
+    let mut gather = Gather::new(simd, &level.texels, wanted, small, sheet);
     for group in 0..most(groups) {
         let mut rows = walks.rows(simd, groups, group);
         for _ in 0..most(rows.count) {
             let (weights, at) = walks.row(simd, level, &mut rows);
-            let [left, right] = weights;
-            let both = (left + right).bitcast::<i16x32<S>>();
-            totals += both.pairwise_dot_product(i16x32::splat(simd, 1));
-            sheet.put(used, weights, at);
-            used += 1;
-            if used == QUADS {
-                sums.gather(simd, texels, wanted, sheet, used);
-                used = 0;
-            }
+            gather.put(weights, at);
         }
     }
-    sums.finish(simd, texels, wanted, sheet, used, &shares(totals), out);
-    for i in lanes(totals.simd_le(0).to_bitmask() & wanted) {
+    for i in lanes(gather.finish(out)) {
         out[i] = walks.get(i).centre(level, t.wrap);
+    }
+}
+
+/// Sums on their way: quads are weighed one after the other for all walks, and then each walk's are read.
+pub(crate) struct Gather<'a, S: Simd> {
+    simd: S,
+    texels: &'a [Texel],
+    wanted: u64,
+    sheet: &'a mut Sheet,
+    /// Quads that stand in it.
+    used: usize,
+    sums: Sums,
+    /// Of the weights.
+    totals: i32x16<S>,
+}
+
+impl<'a, S: Simd> Gather<'a, S> {
+    /// For the walks whose bits are set. `small` says that all their sums are sure to fit 31 bits.
+    #[inline(always)]
+    pub(crate) fn new(
+        simd: S,
+        texels: &'a [Texel],
+        wanted: u64,
+        small: bool,
+        sheet: &'a mut Sheet,
+    ) -> Self {
+        let sums =
+            if small { Sums::Small([[0; 4]; ABREAST]) } else { Sums::Large([[0.0; 4]; ABREAST]) };
+        Self { simd, texels, wanted, sheet, used: 0, sums, totals: i32x16::splat(simd, 0) }
+    }
+
+    /// A quad of each walk: the pairs of its weights, and the index of its first texel.
+    #[inline(always)]
+    pub(crate) fn put(&mut self, weights: [i32x16<S>; 2], at: i32x16<S>) {
+        let [left, right] = weights;
+        let both = (left + right).bitcast::<i16x32<S>>();
+        self.totals += both.pairwise_dot_product(i16x32::splat(self.simd, 1));
+        self.sheet.put(self.used, weights, at);
+        self.used += 1;
+        if self.used == QUADS {
+            self.sums.gather(self.simd, self.texels, self.wanted, self.sheet, self.used);
+            self.used = 0;
+        }
+    }
+
+    /// Makes the means. Returns the bits of walks of which no texel has any weight, whose means are of no
+    /// meaning.
+    #[inline(always)]
+    pub(crate) fn finish(self, out: &mut [[f32; 4]; ABREAST]) -> u64 {
+        let Self { simd, texels, wanted, sheet, used, sums, totals } = self;
+        sums.finish(simd, texels, wanted, sheet, used, &shares(totals), out);
+        totals.simd_le(0).to_bitmask() & wanted
     }
 }
 
@@ -165,7 +204,7 @@ fn shares<S: Simd>(totals: i32x16<S>) -> [f64; ABREAST] {
 
 /// Two weights, rounded to whole numbers, in the low and the high halves of the lanes.
 #[inline(always)]
-fn pair<S: Simd>(simd: S, first: f32x16<S>, second: f32x16<S>) -> i32x16<S> {
+pub(crate) fn pair<S: Simd>(simd: S, first: f32x16<S>, second: f32x16<S>) -> i32x16<S> {
     let rounder = f32x16::splat(simd, ROUNDER);
     let first = (first + rounder).bitcast::<i32x16<S>>() & 0xffff;
     first | ((second + rounder).bitcast::<i32x16<S>>() << 16)

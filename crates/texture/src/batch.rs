@@ -20,7 +20,7 @@ use scumble_pixel::Premul;
 pub(crate) const WORTH: usize = 4;
 
 /// Sixteen colours.
-type Colors = [[f32; 4]; ABREAST];
+pub(crate) type Colors = [[f32; 4]; ABREAST];
 
 /// Samples a run of footprints with the level chosen by the ellipse.
 #[inline(always)]
@@ -47,12 +47,73 @@ pub(crate) fn fill<S: Simd>(
         if close != 0 {
             batch.magnify(close, far, &near.to_array(), &mut colors);
         }
-        for (out, color) in out.iter_mut().zip(colors) {
-            *out = within(simd, color);
-        }
-        for i in lanes(asked & !usable) {
-            out[i] = t.average();
-        }
+        finish(simd, t, &colors, usable, out);
+    }
+}
+
+/// Makes pixels of colours; of those whose bits are not set, the mean of the texture.
+#[inline(always)]
+pub(crate) fn finish<S: Simd>(
+    simd: S,
+    t: &Texture,
+    colors: &Colors,
+    usable: u64,
+    out: &mut [Premul],
+) {
+    for (out, color) in out.iter_mut().zip(colors) {
+        *out = within(simd, *color);
+    }
+    for i in lanes(((1u64 << out.len()) - 1) & !usable) {
+        out[i] = t.average();
+    }
+}
+
+/// Calls `f` for each level that lanes whose bits are set are in, with the bits of those.
+#[inline(always)]
+pub(crate) fn by_level<S: Simd>(level: i32x16<S>, wanted: u64, mut f: impl FnMut(usize, u64)) {
+    let levels = level.to_array();
+    let mut rest = wanted;
+    while rest != 0 {
+        let index = levels[rest.trailing_zeros() as usize % ABREAST];
+        let same = level.simd_eq(index).to_bitmask() & rest;
+        rest &= !same;
+        f(index as usize, same);
+    }
+}
+
+/// [`Spotted`] places.
+pub(crate) struct Spots<S: Simd> {
+    pub(crate) base: [i32x16<S>; 2],
+    pub(crate) spot: Spot<f32x16<S>>,
+}
+
+impl<S: Simd> Spots<S> {
+    /// [`Spotted::new`].
+    #[inline(always)]
+    pub(crate) fn new(spots: &Sixteen<S>, level: &Level) -> Self {
+        let [su, sv] = level.frame.scale;
+        let (x0, x) = place(spots.u, su, CENTRE);
+        let (y0, y) = place(spots.v, sv, CENTRE);
+        let Sixteen { jacobian, determinant, .. } = *spots;
+        Self { base: [x0, y0], spot: Spot { x, y, jacobian, determinant }.scaled([su, sv]) }
+    }
+
+    /// The texel so many whole columns and rows from the one that a spot counts from.
+    #[inline(always)]
+    pub(crate) fn texel(&self, [x, y]: [f32x16<S>; 2]) -> [i32x16<S>; 2] {
+        let [x0, y0] = self.base;
+        [x0 + x.to_int::<i32x16<S>>(), y0 + y.to_int::<i32x16<S>>()]
+    }
+
+    #[inline(always)]
+    pub(crate) fn get(&self, i: usize) -> Spotted {
+        let spot = Spot {
+            x: self.spot.x.to_array()[i],
+            y: self.spot.y.to_array()[i],
+            jacobian: self.spot.jacobian.map(|lanes| lanes.to_array()[i]),
+            determinant: self.spot.determinant.to_array()[i],
+        };
+        Spotted { base: self.base.map(|lanes| lanes.to_array()[i]), spot }
     }
 }
 
@@ -155,16 +216,16 @@ impl<S: Simd> Ellipses<S> {
 }
 
 /// The levels that are read.
-struct Picks<S: Simd> {
+pub(crate) struct Picks<S: Simd> {
     /// Counted from the first that is kept.
-    level: i32x16<S>,
-    coarser: f32x16<S>,
+    pub(crate) level: i32x16<S>,
+    pub(crate) coarser: f32x16<S>,
 }
 
 impl<S: Simd> Picks<S> {
     /// [`auto_pick`](crate::ewa::auto_pick).
     #[inline(always)]
-    fn new(simd: S, minor: f32x16<S>, t: &Texture, blend: bool) -> Self {
+    pub(crate) fn new(simd: S, minor: f32x16<S>, t: &Texture, blend: bool) -> Self {
         let [first, last] = t.range();
         let first = i32x16::splat(simd, first as i32);
         let last = i32x16::splat(simd, last as i32);
@@ -213,14 +274,12 @@ impl<S: Simd> Batch<'_, S> {
     /// Those of lanes in a level each.
     #[inline(always)]
     fn fill(&mut self, ellipses: &Ellipses<S>, level: i32x16<S>, wanted: u64, out: &mut Colors) {
-        let levels = level.to_array();
-        let mut rest = wanted;
-        while rest != 0 {
-            let index = levels[rest.trailing_zeros() as usize % ABREAST];
-            let same = level.simd_eq(index).to_bitmask() & rest;
-            rest &= !same;
-            self.fill_level(ellipses, index as usize, same, out);
-        }
+        by_level(
+            level,
+            wanted,
+            #[inline(always)]
+            |index, same| self.fill_level(ellipses, index, same, out),
+        );
     }
 
     /// The colours of lanes that read the same level.
@@ -262,21 +321,10 @@ impl<S: Simd> Batch<'_, S> {
     fn fill_magnified(&mut self, wanted: u64, out: &mut Colors) {
         let (simd, magnify) = (self.simd, self.limits.magnify);
         let Some(level) = self.t.levels.first() else { return };
-        let [su, sv] = level.frame.scale;
-        let (x0, x) = place(self.spots.u, su, CENTRE);
-        let (y0, y) = place(self.spots.v, sv, CENTRE);
-        let Sixteen { jacobian, determinant, .. } = *self.spots;
-        let spot = Spot { x, y, jacobian, determinant }.scaled([su, sv]);
-        let done = magnify.average_all(simd, level, &spot, [x0, y0], wanted, self.sheet, out);
+        let at = Spots::new(self.spots, level);
+        let done = magnify.average_all(simd, level, &at.spot, at.base, wanted, self.sheet, out);
         for i in lanes(wanted & !done) {
-            let base = [x0.to_array()[i], y0.to_array()[i]];
-            let spot = Spot {
-                x: spot.x.to_array()[i],
-                y: spot.y.to_array()[i],
-                jacobian: spot.jacobian.map(|lanes| lanes.to_array()[i]),
-                determinant: spot.determinant.to_array()[i],
-            };
-            out[i] = magnify.sample(level, self.t.wrap, &Spotted { base, spot });
+            out[i] = magnify.sample(level, self.t.wrap, &at.get(i));
         }
     }
 

@@ -36,6 +36,17 @@ pub(crate) fn products<N: Number>([a, b, c, d]: [N; 4]) -> [N; 3] {
     [a * a + b * b, a * c + b * d, c * c + d * d]
 }
 
+/// The square of the minor axis of a footprint from the [`products`] and the determinant of its Jacobian:
+/// no less than the largest ratio allows.
+#[inline(always)]
+pub(crate) fn minor_squared<N: Number>([p, q, r]: [N; 3], determinant: N, inverse_ratio: f32) -> N {
+    let (x, y) = (p - r, q * 2.0);
+    let major = ((p + r) + (x * x + y * y).sqrt()) * 0.5;
+    // 0 only where everything under it has vanished.
+    let minor = major.if_positive(determinant * determinant / major, major.all(0.0));
+    minor.at_least(major * inverse_ratio)
+}
+
 impl Covariance {
     /// Pixel and reconstruction together, for a Jacobian in texels per pixel, with the minor axis
     /// widened to the largest ratio; and the variance V₂ along the minor axis.

@@ -2,6 +2,7 @@ use crate::ewa::Limits;
 use crate::level::Level;
 use crate::points::Points;
 use crate::run::Run;
+use crate::square::Square;
 use crate::walk::Walk;
 use crate::{LevelMode, Texture, Wrap};
 use fearless_simd::Simd;
@@ -26,6 +27,9 @@ pub(crate) trait Engine: Copy {
     /// Samples a run of footprints with the level chosen by the ellipse, if there is a way that is
     /// quicker than one by one.
     fn ellipses(self, t: &Texture, run: impl Run, limits: &Limits, out: &mut [Premul]) -> bool;
+
+    /// The same for the mean over the pixel's square.
+    fn squares(self, t: &Texture, run: impl Run, square: &Square, out: &mut [Premul]) -> bool;
 }
 
 /// The definition.
@@ -54,6 +58,10 @@ impl Engine for Scalar {
     }
 
     fn ellipses(self, _: &Texture, _: impl Run, _: &Limits, _: &mut [Premul]) -> bool {
+        false
+    }
+
+    fn squares(self, _: &Texture, _: impl Run, _: &Square, _: &mut [Premul]) -> bool {
         false
     }
 }
@@ -89,6 +97,15 @@ impl<S: Simd> Engine for Vector<S> {
         self.0.vectorize(
             #[inline(always)]
             || crate::batch::fill(self.0, t, run, limits, out),
+        );
+        true
+    }
+
+    #[inline(always)]
+    fn squares(self, t: &Texture, run: impl Run, square: &Square, out: &mut [Premul]) -> bool {
+        self.0.vectorize(
+            #[inline(always)]
+            || crate::square::lanes::fill(self.0, t, run, square, out),
         );
         true
     }

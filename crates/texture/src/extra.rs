@@ -2,8 +2,10 @@
 //!
 //! Some footprints at a time; what the fast path can do of them it does.
 
+use crate::batch::WORTH;
 use crate::classic::Classic;
 use crate::covariance::{products, single};
+use crate::engine::{Engine, Scalar, Vector};
 use crate::magnify::patch::Spotted;
 use crate::radial::Radial;
 use crate::run::{Listed, Run};
@@ -33,20 +35,26 @@ pub(crate) fn takes(s: &Sampler) -> bool {
 /// Samples a run of footprints, compiled for the texture's instructions.
 pub(crate) fn fill(t: &Texture, run: impl Run, s: &Sampler, out: &mut [Premul]) {
     match t.simd.0 {
-        None => fill_impl(t, run, s, out),
-        Some(level) => dispatch!(level, _simd => fill_impl(t, run, s, out)),
+        None => fill_impl(Scalar, t, run, s, out),
+        Some(level) => dispatch!(level, simd => fill_impl(Vector(simd), t, run, s, out)),
     }
 }
 
 #[inline(always)]
-fn fill_impl(t: &Texture, run: impl Run, s: &Sampler, out: &mut [Premul]) {
+fn fill_impl(engine: impl Engine, t: &Texture, run: impl Run, s: &Sampler, out: &mut [Premul]) {
     let area = Area::new(s);
+    if let Area::Square(square) = &area
+        && matches!(s.magnify, Magnify::None | Magnify::Taps)
+        && fill_squares(engine, t, run, square, out)
+    {
+        return;
+    }
     for (chunk, out) in out.chunks_mut(BATCH).enumerate() {
         let mut footprints = [Footprint::point(0.0, 0.0); BATCH];
         for (i, f) in footprints[..out.len()].iter_mut().enumerate() {
             *f = run.at(chunk * BATCH + i);
         }
-        area.fill(t, &footprints, s, out);
+        area.fill(engine, t, &footprints, s, out);
     }
 }
 
@@ -94,7 +102,14 @@ impl Area {
 
     /// The filter of the area, and of the place where that is magnified.
     #[inline(always)]
-    fn fill(&self, t: &Texture, footprints: &Footprints, s: &Sampler, out: &mut [Premul]) {
+    fn fill(
+        &self,
+        engine: impl Engine,
+        t: &Texture,
+        footprints: &Footprints,
+        s: &Sampler,
+        out: &mut [Premul],
+    ) {
         let mut near = [0.0f32; BATCH];
         if s.magnify.is_apart() {
             for (near, f) in near.iter_mut().zip(footprints) {
@@ -103,7 +118,7 @@ impl Area {
         }
         let near = &near[..out.len()];
         if near.iter().any(|n| *n < 1.0) {
-            self.fill_area(t, footprints, s, out);
+            self.fill_area(engine, t, footprints, s, out);
         }
         let mut magnified = [Premul::TRANSPARENT; BATCH];
         let magnified = &mut magnified[..out.len()];
@@ -116,7 +131,14 @@ impl Area {
     }
 
     #[inline(always)]
-    fn fill_area(&self, t: &Texture, footprints: &Footprints, s: &Sampler, out: &mut [Premul]) {
+    fn fill_area(
+        &self,
+        engine: impl Engine,
+        t: &Texture,
+        footprints: &Footprints,
+        s: &Sampler,
+        out: &mut [Premul],
+    ) {
         match self {
             Self::Separable(kernel) => {
                 let mode = point_mode(s);
@@ -127,7 +149,11 @@ impl Area {
                 }
             }
             Self::Radial(radial) => each(t, footprints, out, |f| radial.sample(t, f)),
-            Self::Square(square) => each(t, footprints, out, |f| square.sample(t, f)),
+            Self::Square(square) => {
+                if !fill_squares(engine, t, Listed(footprints), square, out) {
+                    each(t, footprints, out, |f| square.sample(t, f));
+                }
+            }
             Self::Classic(classic) => each(t, footprints, out, |f| classic.sample(t, f)),
             Self::Probes(most) => {
                 let mode = point_mode(s);
@@ -135,6 +161,18 @@ impl Area {
             }
         }
     }
+}
+
+/// The means over a run of squares, if there is a way that is quicker than one by one.
+#[inline(always)]
+fn fill_squares(
+    engine: impl Engine,
+    t: &Texture,
+    run: impl Run,
+    square: &Square,
+    out: &mut [Premul],
+) -> bool {
+    out.len() >= WORTH && !t.levels[0].is_float() && engine.squares(t, run, square, out)
 }
 
 /// Samples each footprint that is bounded; the others are the mean of the texture.

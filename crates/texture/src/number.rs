@@ -36,6 +36,8 @@ pub(crate) trait Number:
     fn parts(self) -> [Self; 2];
     /// One number where this is above 0, and another where it is not.
     fn if_positive(self, then: Self, otherwise: Self) -> Self;
+    /// Whether it, or one of them, is above 0.
+    fn any_positive(self) -> bool;
     /// A function of each number that has no other form.
     fn each(self, f: impl Fn(f32) -> f32) -> Self;
 }
@@ -91,6 +93,11 @@ impl Number for f32 {
     }
 
     #[inline(always)]
+    fn any_positive(self) -> bool {
+        self > 0.0
+    }
+
+    #[inline(always)]
     fn each(self, f: impl Fn(f32) -> f32) -> Self {
         f(self)
     }
@@ -143,6 +150,11 @@ impl<S: Simd> Number for f32x16<S> {
     #[inline(always)]
     fn if_positive(self, then: Self, otherwise: Self) -> Self {
         self.simd_gt(0.0).select(then, otherwise)
+    }
+
+    #[inline(always)]
+    fn any_positive(self) -> bool {
+        self.simd_gt(0.0).any_true()
     }
 
     #[inline(always)]

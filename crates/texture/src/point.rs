@@ -4,7 +4,7 @@
 use crate::level::Level;
 use crate::lod::{self, Pick};
 use crate::math::{floor, whole};
-use crate::texel::{Texel, steps};
+use crate::texel::steps;
 use crate::{Footprint, LevelMode, Texture, Wrap};
 use scumble_pixel::Premul;
 
@@ -57,14 +57,6 @@ impl Point for Bilinear {
 /// The texel at (x, y), which may lie outside, in the level's unit.
 fn numbers(level: &Level, wrap: Wrap, x: i32, y: i32) -> [f32; 4] {
     if level.is_float() { level.texel(x, y, wrap) } else { steps(level.stored(x, y, wrap)) }
-}
-
-/// The bilinear mean of two rows of two texels, in steps: first down, then along.
-#[inline(always)]
-pub(crate) fn bilinear(top: &[Texel; 2], bottom: &[Texel; 2], fx: f32, fy: f32) -> [f32; 4] {
-    let left = lerp(steps(top[0]), steps(bottom[0]), fy);
-    let right = lerp(steps(top[1]), steps(bottom[1]), fy);
-    lerp(left, right, fx)
 }
 
 /// The colour of a footprint.

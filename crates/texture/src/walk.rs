@@ -199,9 +199,7 @@ impl Walk {
     /// Row `j` of the walk, as far as it can be found in the level.
     #[inline(always)]
     pub(crate) fn row<'a>(&self, j: i32, level: &'a Level, wrap: Wrap) -> Row<'a> {
-        let y = wrap.resolve(self.y0 + j, level.height);
-        let texels = y.map(|y| level.row_with_apron(y));
-        Row { texels, outside: level.outside, columns: level.part[0], width: level.width, wrap }
+        Row::new(self.y0 + j, level, wrap)
     }
 }
 
@@ -229,7 +227,14 @@ pub(crate) struct Row<'a> {
     wrap: Wrap,
 }
 
-impl Row<'_> {
+impl<'a> Row<'a> {
+    /// Row `y`, which may lie outside.
+    #[inline(always)]
+    pub(crate) fn new(y: i32, level: &'a Level, wrap: Wrap) -> Self {
+        let texels = wrap.resolve(y, level.height).map(|y| level.row_with_apron(y));
+        Self { texels, outside: level.outside, columns: level.part[0], width: level.width, wrap }
+    }
+
     /// Calls `f` with the [`LANES`] texels from column `x`: in place where they lie inside,
     /// collected where they do not.
     #[inline(always)]
