@@ -106,21 +106,26 @@ pub(crate) fn walk_all<S: Simd>(
     }
 }
 
+/// The sum of weights up to which their sums with texels of at most 20,400 fit 31 bits.
+const FITS: i32 = i32::MAX / 20_400;
+
 /// Sums on their way: quads are weighed one after the other for all walks, and then each walk's are read.
 pub(crate) struct Gather<'a, S: Simd> {
     simd: S,
     texels: &'a [Texel],
     wanted: u64,
     sheet: &'a mut Sheet,
-    /// Quads that stand in it.
+    /// Quads that stand in it, and whether others have been read.
     used: usize,
+    read: bool,
     sums: Sums,
     /// Of the weights.
     totals: i32x16<S>,
 }
 
 impl<'a, S: Simd> Gather<'a, S> {
-    /// For the walks whose bits are set. `small` says that all their sums are sure to fit 31 bits.
+    /// For the walks whose bits are set, their weights at least 0 and at most 2¹². `small` says that all their
+    /// sums are sure to fit 31 bits.
     #[inline(always)]
     pub(crate) fn new(
         simd: S,
@@ -131,7 +136,8 @@ impl<'a, S: Simd> Gather<'a, S> {
     ) -> Self {
         let sums =
             if small { Sums::Small([[0; 4]; ABREAST]) } else { Sums::Large([[0.0; 4]; ABREAST]) };
-        Self { simd, texels, wanted, sheet, used: 0, sums, totals: i32x16::splat(simd, 0) }
+        let totals = i32x16::splat(simd, 0);
+        Self { simd, texels, wanted, sheet, used: 0, read: false, sums, totals }
     }
 
     /// A quad of each walk: the pairs of its weights, and the index of its first texel.
@@ -145,6 +151,7 @@ impl<'a, S: Simd> Gather<'a, S> {
         if self.used == QUADS {
             self.sums.gather(self.simd, self.texels, self.wanted, self.sheet, self.used);
             self.used = 0;
+            self.read = true;
         }
     }
 
@@ -152,7 +159,10 @@ impl<'a, S: Simd> Gather<'a, S> {
     /// meaning.
     #[inline(always)]
     pub(crate) fn finish(self, out: &mut [[f32; 4]; ABREAST]) -> u64 {
-        let Self { simd, texels, wanted, sheet, used, sums, totals } = self;
+        let Self { simd, texels, wanted, sheet, used, read, mut sums, totals } = self;
+        if !read && most(totals) <= FITS {
+            sums = Sums::Small([[0; 4]; ABREAST]);
+        }
         sums.finish(simd, texels, wanted, sheet, used, &shares(totals), out);
         totals.simd_le(0).to_bitmask() & wanted
     }

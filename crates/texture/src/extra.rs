@@ -44,7 +44,7 @@ pub(crate) fn fill(t: &Texture, run: impl Run, s: &Sampler, out: &mut [Premul]) 
 fn fill_impl(engine: impl Engine, t: &Texture, run: impl Run, s: &Sampler, out: &mut [Premul]) {
     let area = Area::new(s);
     if let Area::Square(square) = &area
-        && matches!(s.magnify, Magnify::None | Magnify::Taps)
+        && s.takes_squares()
         && fill_squares(engine, t, run, square, out)
     {
         return;

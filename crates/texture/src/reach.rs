@@ -3,6 +3,7 @@
 use crate::covariance::Covariance;
 use crate::ewa::{Limits, auto_pick};
 use crate::magnify::MINIFIED;
+use crate::square;
 use crate::{Kernel, LevelMode, Levels, Magnify, PixelFilter, Sampler};
 use scumble_geometry::Matrix2;
 
@@ -34,11 +35,11 @@ impl Sampler {
         if self.level == LevelMode::Zero {
             return Levels::BaseOnly;
         }
-        let by_ellipse = self.pixel == PixelFilter::Ewa
+        let by_area = self.pixel == PixelFilter::Ewa
             && self.level == LevelMode::Auto
-            && self.kernel == Kernel::Gaussian
+            && matches!(self.kernel, Kernel::Gaussian | Kernel::Box)
             && !matches!(self.magnify, Magnify::Radial(_));
-        let last = if by_ellipse && most.iter().all(|s| s.is_finite()) {
+        let last = if by_area && most.iter().all(|s| s.is_finite()) {
             let (last, blends) = self.level_of(most.map(|s| s * (1.0 + ROUNDING)));
             last + usize::from(blends)
         } else if self.pixel != PixelFilter::Classic && most[0] <= 1.0 {
@@ -47,8 +48,9 @@ impl Sampler {
             FARTHEST
         };
         // What is magnified on its own reads the image.
-        let minified = !self.magnify.is_apart() || least[0] >= f64::from(MINIFIED);
-        let first = if by_ellipse && minified {
+        let apart = self.magnify.is_apart() && !self.takes_squares();
+        let minified = !apart || least[0] >= f64::from(MINIFIED);
+        let first = if by_area && minified {
             self.level_of(least.map(|s| s * (1.0 - ROUNDING))).0.min(last)
         } else {
             0
@@ -60,13 +62,22 @@ impl Sampler {
         }
     }
 
-    /// The level of an ellipse with these axes, and whether it blends with the next.
+    /// The level of an ellipse or a square with these axes, and whether it blends with the next.
     fn level_of(&self, [major, minor]: [f64; 2]) -> (usize, bool) {
         let limits = Limits::new(self);
         let jacobian = Matrix2::new(major.max(0.0), 0.0, 0.0, minor.max(0.0));
-        let (_, variance) = Covariance::of(&jacobian, limits.inverse_ratio);
-        let pick = auto_pick(variance * limits.inverse_least, [0, FARTHEST], limits.blend);
+        let pick = if self.kernel == Kernel::Box {
+            square::level_of(&jacobian, &limits, [0, FARTHEST])
+        } else {
+            let (_, variance) = Covariance::of(&jacobian, limits.inverse_ratio);
+            auto_pick(variance * limits.inverse_least, [0, FARTHEST], limits.blend)
+        };
         (pick.level, pick.coarser > 0.0)
+    }
+
+    /// Whether all that an area is averaged by is the pixel's square: sixteen taps are of the Gaussian.
+    pub(crate) fn takes_squares(&self) -> bool {
+        self.kernel == Kernel::Box && matches!(self.magnify, Magnify::None | Magnify::Taps)
     }
 }
 
@@ -86,6 +97,10 @@ mod tests {
         let bilinear = Sampler::DEFAULT.with(PixelFilter::Bilinear, LevelMode::Auto);
         assert_eq!(bilinear.levels_for([1.0; 2], [1.0; 2]), Levels::BaseOnly);
         assert_eq!(bilinear.levels_for([1.0; 2], [1.1, 1.0]), Levels::All);
+        let square = Sampler { kernel: Kernel::Box, ..Sampler::DEFAULT };
+        assert_eq!(square.levels_for([4.0; 2], [4.0; 2]), Levels::BaseOnly);
+        assert_eq!(square.levels_for([10.0; 2], [12.0; 2]), Levels::Range { first: 1, last: 1 });
+        assert_eq!(square.levels_for([0.0; 2], far), Levels::All);
         let zero = Sampler { level: LevelMode::Zero, ..Sampler::DEFAULT };
         assert_eq!(zero.levels_for(far, far), Levels::BaseOnly);
     }

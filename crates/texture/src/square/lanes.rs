@@ -14,9 +14,6 @@ use crate::{LevelMode, Texture};
 use fearless_simd::{Simd, f32x16, i32x16, mask32x16, prelude::*};
 use scumble_pixel::Premul;
 
-/// The sum of weights up to which their sums with texels of at most 20,400 fit 31 bits, rounding included.
-const SMALL: f32 = 98_304.0;
-
 /// Samples a run of footprints.
 #[inline(always)]
 pub(crate) fn fill<S: Simd>(
@@ -51,12 +48,7 @@ pub(crate) fn fill<S: Simd>(
 impl Square {
     /// [`Square::pick`] for each lane.
     #[inline(always)]
-    fn picks<S: Simd>(
-        &self,
-        simd: S,
-        t: &Texture,
-        spots: &Sixteen<S>,
-    ) -> (i32x16<S>, f32x16<S>) {
+    fn picks<S: Simd>(&self, simd: S, t: &Texture, spots: &Sixteen<S>) -> (i32x16<S>, f32x16<S>) {
         if self.mode != LevelMode::Auto {
             let step = lod::longest_step_squared(spots.jacobian);
             let [level, coarser] = lod::levels(step, self.mode, t.range().map(|l| l as f32));
@@ -131,8 +123,7 @@ impl<S: Simd> Batch<'_, S> {
         let simd = self.simd;
         let lane = mask32x16::from_bitmask(simd, wanted);
         let zero = i32x16::splat(simd, 0);
-        let small = wanted & !shape.total.simd_le(SMALL).to_bitmask() == 0;
-        let mut gather = Gather::new(simd, &level.texels, wanted, small, self.sheet);
+        let mut gather = Gather::new(simd, &level.texels, wanted, false, self.sheet);
         let [_, low] = shape.low;
         let count = (shape.high[1] - low).to_int::<i32x16<S>>() + 1;
         for r in 0..lane.select(count, zero).reduce_max() {

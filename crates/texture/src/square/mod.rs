@@ -17,6 +17,7 @@ use crate::point::lerp;
 use crate::texel::ROUNDER;
 use crate::walk::{LANES, Row, mean};
 use crate::{Footprint, LevelMode, Sampler, Texture, Wrap};
+use scumble_geometry::Matrix2;
 use shape::{COARSE, FINE, Rule, Shape};
 
 /// What the square of a parallelogram's width is multiplied by to choose a level as for an ellipse's least
@@ -66,12 +67,16 @@ impl Square {
         if self.mode != LevelMode::Auto {
             return lod::pick(f, self.mode, t.range());
         }
-        let determinant = f.jacobian.determinant() as f32;
-        let minor =
-            minor_squared(products(single(&f.jacobian)), determinant, self.limits.inverse_ratio);
-        let minor = minor * VARIANCE * self.limits.inverse_least;
-        auto_pick(minor, t.range(), self.limits.blend)
+        level_of(&f.jacobian, &self.limits, t.range())
     }
+}
+
+/// The level in which the square under a Jacobian is wide enough, of those from the first to the last.
+#[inline(always)]
+pub(crate) fn level_of(j: &Matrix2, limits: &Limits, range: [usize; 2]) -> Pick {
+    let determinant = j.determinant() as f32;
+    let minor = minor_squared(products(single(j)), determinant, limits.inverse_ratio);
+    auto_pick(minor * VARIANCE * limits.inverse_least, range, limits.blend)
 }
 
 /// The colour at a spot of a level: the definition.
@@ -172,7 +177,7 @@ mod tests {
     use crate::ewa::BUDGET;
     use crate::reference::{PixelShape, Reference};
     use crate::{Kernel, TextureOptions, Wrap};
-    use scumble_geometry::{DVec2, Homography, Matrix2};
+    use scumble_geometry::{DVec2, Homography};
     use scumble_pixel::Image;
 
     fn texture(wrap: Wrap) -> Texture {
