@@ -86,7 +86,7 @@ fn ground(c: &mut Criterion) {
         ("fast", Sampler::FAST),
         ("default", Sampler::DEFAULT),
         ("high", Sampler::HIGH),
-        ("default, taps", Sampler { magnify: Magnify::Taps, ..s }),
+        ("square", Sampler { kernel: Kernel::Box, ..s }),
         ("default, Catmull-Rom", Sampler { magnify: Magnify::CatmullRom, ..s }),
         ("triangle", Sampler { kernel: Kernel::Triangle, ..s }),
         ("Lanczos 2", Sampler { kernel: Kernel::Lanczos2, ..s }),

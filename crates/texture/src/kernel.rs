@@ -36,9 +36,10 @@ pub enum Kernel {
     Lanczos2,
     /// sinc r under the main lobe of sinc(r/3).
     Lanczos3,
-    /// The mean of the bilinear surface over the pixel's square, a parallelogram in the texture, on a grid of
-    /// places: exact, several times slower than the ellipses, and it aliases as squares do. Where a radial
-    /// weight is asked for ([`Magnify::Radial`](crate::Magnify::Radial), the classic filter), 1 within
+    /// The mean of the bilinear surface over the pixel's square, a parallelogram in the texture: each texel by
+    /// how much of its tent lies inside, to what 8 bits show. A level is read that is one finer than the
+    /// Gaussian's, so it takes up to twice as long; and it aliases as squares do. Where a radial weight is
+    /// asked for ([`Magnify::Radial`](crate::Magnify::Radial), the classic filter), 1 within
     /// r = √½, the least circle that always holds the centre of a texel.
     Box,
     /// One's own.
