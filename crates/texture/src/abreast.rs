@@ -158,13 +158,32 @@ impl<'a, S: Simd> Gather<'a, S> {
     /// Makes the means. Returns the bits of walks of which no texel has any weight, whose means are of no
     /// meaning.
     #[inline(always)]
-    pub(crate) fn finish(self, out: &mut [[f32; 4]; ABREAST]) -> u64 {
-        let Self { simd, texels, wanted, sheet, used, read, mut sums, totals } = self;
-        if !read && most(totals) <= FITS {
-            sums = Sums::Small([[0; 4]; ABREAST]);
+    pub(crate) fn finish(&mut self, out: &mut [[f32; 4]; ABREAST]) -> u64 {
+        let Self { simd, texels, wanted, used, totals, .. } = *self;
+        let shares = shares(totals);
+        if !self.read && most(totals) <= FITS {
+            finish_small(simd, texels, wanted, self.sheet, used, &shares, out);
+        } else {
+            self.sums.finish(simd, texels, wanted, self.sheet, used, &shares, out);
         }
-        sums.finish(simd, texels, wanted, sheet, used, &shares(totals), out);
         totals.simd_le(0).to_bitmask() & wanted
+    }
+}
+
+/// The means of walks of which all quads stand in the sheet, and whose sums fit 31 bits.
+#[inline(always)]
+fn finish_small<S: Simd>(
+    simd: S,
+    texels: &[Texel],
+    wanted: u64,
+    sheet: &Sheet,
+    quads: usize,
+    shares: &[f64; ABREAST],
+    out: &mut [[f32; 4]; ABREAST],
+) {
+    for i in lanes(wanted) {
+        let sum = small(simd, texels, sheet, quads, i).to_array();
+        out[i] = mean(sum.map(f64::from), shares[i]);
     }
 }
 
@@ -197,8 +216,7 @@ pub(crate) fn average_all<S: Simd, const C: usize, const R: usize>(
         totals += both.pairwise_dot_product(i16x32::splat(simd, 1));
         sheet.put(r, [left, right], inside.select(at, i32x16::splat(simd, 0)));
     }
-    let sums = Sums::Small([[0; 4]; ABREAST]);
-    sums.finish(simd, &level.texels, done, sheet, R, &shares(totals), out);
+    finish_small(simd, &level.texels, done, sheet, R, &shares(totals), out);
     done
 }
 
@@ -350,7 +368,7 @@ impl Sums {
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "what a batch of pixels has in hand")]
     fn finish<S: Simd>(
-        mut self,
+        &mut self,
         simd: S,
         texels: &[Texel],
         wanted: u64,
@@ -359,7 +377,7 @@ impl Sums {
         shares: &[f64; ABREAST],
         out: &mut [[f32; 4]; ABREAST],
     ) {
-        if let Self::Small(sums) = &self {
+        if let Self::Small(sums) = self {
             for i in lanes(wanted) {
                 let own = small(simd, texels, sheet, quads, i);
                 let sum = (own + i32x4::load_array(simd, sums[i])).to_array();
@@ -368,7 +386,7 @@ impl Sums {
             return;
         }
         self.gather(simd, texels, wanted, sheet, quads);
-        if let Self::Large(sums) = &self {
+        if let Self::Large(sums) = self {
             for i in lanes(wanted) {
                 out[i] = mean(sums[i], shares[i]);
             }
