@@ -5,7 +5,7 @@ use super::{Border, Lookup, Map, Prepared, Warp};
 use crate::geometry::{DVec2, Homography, IntRect};
 use crate::pixel::{Image, Premul, Straight, WorkingSpace};
 use crate::texture::{
-    Footprint, LevelMode, Magnify, PixelFilter, Sampler, Texture, TextureOptions,
+    Footprint, Kernel, LevelMode, Magnify, PixelFilter, Sampler, Texture, TextureOptions,
 };
 use crate::{Control, ImageSink};
 use proptest::prelude::*;
@@ -38,7 +38,10 @@ fn homography() -> impl Strategy<Value = Homography> {
 
 fn sampler() -> impl Strategy<Value = Sampler> {
     let taps = Sampler { magnify: Magnify::CatmullRom, ..Sampler::DEFAULT };
+    let square = Sampler { kernel: Kernel::Box, ..Sampler::DEFAULT };
     prop::sample::select(vec![
+        square,
+        Sampler { magnify: Magnify::Bilinear, ..square },
         Sampler::FAST,
         Sampler::DEFAULT,
         Sampler::HIGH,
