@@ -1,5 +1,5 @@
 use crate::pixel::{Premul, Straight, WorkingSpace};
-use crate::texture::{Footprint, Sampler, Wrap};
+use crate::texture::{Footprint, Kernel, Magnify, PixelFilter, Sampler, Wrap};
 
 /// What lies beyond the edge of the source.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -43,20 +43,33 @@ impl Border {
 /// Standard deviations to a pixel: the pixel is a Gaussian, σ = ½.
 const SIGMAS_PER_PIXEL: f64 = 2.0;
 
-/// How much of a pixel's Gaussian lies within the source, whose edges are taken for straight lines there.
+/// How much of a pixel lies within the source, whose edges are taken for straight lines there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Edge {
     /// Columns and rows of the source.
     size: [f64; 2],
-    /// The part of the Gaussian beyond its cut, which counts for nothing.
-    tail: f64,
+    pixel: Pixel,
+}
+
+/// What a pixel is.
+#[derive(Debug, Clone, Copy)]
+enum Pixel {
+    /// A Gaussian, whose part beyond its cut, `tail`, counts for nothing.
+    Gaussian { tail: f64 },
+    /// A square.
+    Square,
 }
 
 impl Edge {
     pub(super) fn new([width, height]: [usize; 2], sampler: &Sampler) -> Self {
+        let square = sampler.kernel == Kernel::Box
+            && sampler.pixel == PixelFilter::Ewa
+            && !matches!(sampler.magnify, Magnify::Radial(_));
         // A NaN becomes the lower bound.
         let radius = f64::from(sampler.radius.max(2.0)).min(4.0);
-        Self { size: [width as f64, height as f64], tail: 1.0 - normal(radius) }
+        let gaussian = Pixel::Gaussian { tail: 1.0 - normal(radius) };
+        let pixel = if square { Pixel::Square } else { gaussian };
+        Self { size: [width as f64, height as f64], pixel }
     }
 
     /// The share, 0…1.
@@ -73,18 +86,39 @@ impl Edge {
     fn between(&self, at: f64, size: f64, dx: f64, dy: f64) -> f64 {
         let slope = (dx * dx + dy * dy).sqrt() * (1.0 / SIGMAS_PER_PIXEL);
         if slope > 0.0 {
-            (self.beyond(at / slope) + self.beyond((size - at) / slope) - 1.0).max(0.0)
+            let below = |distance: f64| match self.pixel {
+                Pixel::Gaussian { tail } => gaussian_below(distance / slope, tail),
+                Pixel::Square => square_below(distance, dx, dy),
+            };
+            (below(at) + below(size - at) - 1.0).max(0.0)
         } else {
             f64::from(u8::from(at > 0.0 && at < size))
         }
     }
+}
 
-    /// The share of the Gaussian, cut and of integral 1, below z standard deviations.
-    fn beyond(&self, z: f64) -> f64 {
-        let share = (normal(z) - self.tail) / (1.0 - 2.0 * self.tail);
-        // A NaN is 0.
-        if share > 0.0 { share.min(1.0) } else { 0.0 }
-    }
+/// The share of the Gaussian, cut and of integral 1, below z standard deviations.
+fn gaussian_below(z: f64, tail: f64) -> f64 {
+    within_unit((normal(z) - tail) / (1.0 - 2.0 * tail))
+}
+
+/// The share of the pixel's square below a line, of a coordinate that is `distance` above its middle and grows
+/// by (dx, dy) for each pixel: of the sum of two numbers, each of which is anywhere in its range as likely.
+fn square_below(distance: f64, dx: f64, dy: f64) -> f64 {
+    let (long, short) = (dx.abs().max(dy.abs()), dx.abs().min(dy.abs()));
+    let beyond = (0.5 * (long + short) - distance.abs()).max(0.0);
+    // As long as the line cuts both of the longer sides, what is beyond grows evenly.
+    let share = if beyond < short {
+        0.5 * (beyond / short) * (beyond / long)
+    } else {
+        0.5 - distance.abs() / long
+    };
+    within_unit(if distance < 0.0 { share } else { 1.0 - share })
+}
+
+/// Brought within 0…1, a NaN to 0.
+fn within_unit(share: f64) -> f64 {
+    if share > 0.0 { share.min(1.0) } else { 0.0 }
 }
 
 /// The normal distribution Φ(z), to 1.5·10⁻⁷ (Abramowitz and Stegun 26.2.19).
@@ -136,6 +170,34 @@ mod tests {
             assert!((coverage(10.0, 20.0, j) - 0.25).abs() < 1e-12);
             assert_eq!(coverage(5.0, 10.0, j), 1.0);
             assert_eq!(coverage(-1.6 * scale, 10.0, j), 0.0);
+        }
+    }
+
+    #[test]
+    fn of_a_square_it_is_the_area_within() {
+        let sampler = Sampler { kernel: Kernel::Box, ..Sampler::DEFAULT };
+        let edge = Edge::new([10, 20], &sampler);
+        for i in 0..60 {
+            let at = |k: f64| (f64::from(i) * k) % 1.0;
+            let j = Matrix2::new(4.0 * at(0.37) - 2.0, 3.0 * at(0.71) - 1.5, 0.0, 0.2);
+            let f = Footprint { u: 3.0 * at(0.618) - 1.0, v: 9.0, jacobian: j };
+            let part = |k: i32| (f64::from(k) + 0.5) / 400.0 - 0.5;
+            let inside = |y: i32| {
+                (0..400).filter(|x| f.u + j.a * part(*x) + j.b * part(y) > 0.0).count() as f64
+            };
+            let truth = (0..400).map(inside).sum::<f64>() / 160_000.0;
+            assert!((edge.coverage(&f) - truth).abs() < 3e-3, "{f:?}: {truth}");
+        }
+        assert_eq!(
+            edge.coverage(&Footprint { u: 0.0, v: 20.0, ..Footprint::point(0.0, 0.0) }),
+            0.0
+        );
+        for v in [0.0, -1.0, 1e300, f64::INFINITY, f64::NAN] {
+            for j in [0.0, 1e-300, 1e300, f64::NAN, f64::INFINITY] {
+                let jacobian = Matrix2::new(j, 0.0, j, j);
+                let share = edge.coverage(&Footprint { u: v, v: 3.0, jacobian });
+                assert!((0.0..=1.0).contains(&share), "{v} {j}: {share}");
+            }
         }
     }
 
