@@ -377,19 +377,13 @@ impl Sums {
         shares: &[f64; ABREAST],
         out: &mut [[f32; 4]; ABREAST],
     ) {
-        if let Self::Small(sums) = self {
-            for i in lanes(wanted) {
-                let own = small(simd, texels, sheet, quads, i);
-                let sum = (own + i32x4::load_array(simd, sums[i])).to_array();
-                out[i] = mean(sum.map(f64::from), shares[i]);
-            }
-            return;
-        }
         self.gather(simd, texels, wanted, sheet, quads);
-        if let Self::Large(sums) = self {
-            for i in lanes(wanted) {
-                out[i] = mean(sums[i], shares[i]);
-            }
+        for i in lanes(wanted) {
+            let sum = match self {
+                Self::Small(sums) => sums[i].map(f64::from),
+                Self::Large(sums) => sums[i],
+            };
+            out[i] = mean(sum, shares[i]);
         }
     }
 }
