@@ -8,12 +8,14 @@ use crate::batch::lanes;
 use crate::level::Level;
 use crate::magnify::patch::Patch;
 use crate::run::ABREAST;
+use crate::store::{CODE_BITS, Code, Whole};
 use crate::texel::{ROUNDER, Texel};
 use crate::walk::{LANES, Walk, mean};
 use crate::walk_simd::PAIR;
 use crate::{Texture, gaussian::lanes as gaussian};
 use fearless_simd::{
-    Simd, f32x16, i16x16, i16x32, i32x4, i32x8, i32x16, mask32x16, prelude::*, u8x32,
+    Simd, f32x16, i16x16, i16x32, i32x4, i32x8, i32x16, i64x4, i64x8, mask32x16, prelude::*, u8x16,
+    u8x32,
 };
 
 /// Quads of each walk that are weighed before their texels are read: as many as most ellipses of the
@@ -46,35 +48,36 @@ pub(crate) struct Walks<S: Simd> {
 /// Memory for [`walk_all`], made once for a run of pixels: by quad and then by lane.
 #[derive(Debug)]
 pub(crate) struct Sheet {
-    /// Four weights of 16 bits: the pair on the left, and that on the right.
-    left: [[i32; ABREAST]; QUADS],
-    right: [[i32; ABREAST]; QUADS],
+    /// Four weights of 16 bits, the first in the lowest.
+    weights: [[i64; ABREAST]; QUADS],
     /// The index of the first texel.
     at: [[i32; ABREAST]; QUADS],
 }
 
 impl Default for Sheet {
     fn default() -> Self {
-        let none = [[0; ABREAST]; QUADS];
-        Self { left: none, right: none, at: none }
+        Self { weights: [[0; ABREAST]; QUADS], at: [[0; ABREAST]; QUADS] }
     }
 }
 
 impl Sheet {
     #[inline(always)]
     fn put<S: Simd>(&mut self, quad: usize, [left, right]: [i32x16<S>; 2], at: i32x16<S>) {
-        self.left[quad] = left.to_array();
-        self.right[quad] = right.to_array();
+        let (first, second) = left.interleave(right);
+        let (weights, _) = self.weights[quad].as_chunks_mut();
+        if let [low, high] = weights {
+            *low = first.bitcast::<i64x8<S>>().to_array();
+            *high = second.bitcast::<i64x8<S>>().to_array();
+        }
         self.at[quad] = at.to_array();
     }
 
-    /// The pairs of weights of so many quads of a walk, and the index of the first texel of each.
+    /// The weights of so many quads of a walk, and the index of the first texel of each.
     #[inline(always)]
-    fn quads(&self, quads: usize, walk: usize) -> impl Iterator<Item = ([i32; 2], i32)> {
-        let pairs = self.left[..quads.min(QUADS)].iter().zip(&self.right);
-        pairs.zip(&self.at).map(
+    fn quads(&self, quads: usize, walk: usize) -> impl Iterator<Item = (i64, i32)> {
+        self.weights[..quads.min(QUADS)].iter().zip(&self.at).map(
             #[inline(always)]
-            move |((left, right), at)| ([left[walk], right[walk]], at[walk]),
+            move |(weights, at)| (weights[walk], at[walk]),
         )
     }
 }
@@ -93,7 +96,7 @@ pub(crate) fn walk_all<S: Simd>(
     let walk = mask32x16::from_bitmask(simd, wanted);
     let groups = walk.select(walks.groups, i32x16::splat(simd, 0));
     let small = wanted & !walks.small.to_bitmask() == 0;
-    let mut gather = Gather::new(simd, &level.texels, wanted, small, sheet);
+    let mut gather = Gather::new(simd, level.texels.whole(), wanted, small, sheet);
     for group in 0..most(groups) {
         let mut rows = walks.rows(simd, groups, group);
         for _ in 0..most(rows.count) {
@@ -112,7 +115,7 @@ const FITS: i32 = i32::MAX / 20_400;
 /// Sums on their way: quads are weighed one after the other for all walks, and then each walk's are read.
 pub(crate) struct Gather<'a, S: Simd> {
     simd: S,
-    texels: &'a [Texel],
+    texels: Whole<'a>,
     wanted: u64,
     sheet: &'a mut Sheet,
     /// Quads that stand in it, and whether others have been read.
@@ -129,7 +132,7 @@ impl<'a, S: Simd> Gather<'a, S> {
     #[inline(always)]
     pub(crate) fn new(
         simd: S,
-        texels: &'a [Texel],
+        texels: Whole<'a>,
         wanted: u64,
         small: bool,
         sheet: &'a mut Sheet,
@@ -174,7 +177,24 @@ impl<'a, S: Simd> Gather<'a, S> {
 #[inline(always)]
 fn finish_small<S: Simd>(
     simd: S,
-    texels: &[Texel],
+    texels: Whole<'_>,
+    wanted: u64,
+    sheet: &Sheet,
+    quads: usize,
+    shares: &[f64; ABREAST],
+    out: &mut [[f32; 4]; ABREAST],
+) {
+    match texels {
+        Whole::Steps(texels) => finish_in(simd, texels, wanted, sheet, quads, shares, out),
+        Whole::Codes(texels) => finish_in(simd, texels, wanted, sheet, quads, shares, out),
+    }
+}
+
+/// [`finish_small`] of texels as they are kept.
+#[inline(always)]
+fn finish_in<S: Simd>(
+    simd: S,
+    texels: &[impl Quad],
     wanted: u64,
     sheet: &Sheet,
     quads: usize,
@@ -216,7 +236,7 @@ pub(crate) fn average_all<S: Simd, const C: usize, const R: usize>(
         totals += both.pairwise_dot_product(i16x32::splat(simd, 1));
         sheet.put(r, [left, right], inside.select(at, i32x16::splat(simd, 0)));
     }
-    finish_small(simd, &level.texels, done, sheet, R, &shares(totals), out);
+    finish_small(simd, level.texels.whole(), done, sheet, R, &shares(totals), out);
     done
 }
 
@@ -342,7 +362,23 @@ impl Sums {
     fn gather<S: Simd>(
         &mut self,
         simd: S,
-        texels: &[Texel],
+        texels: Whole<'_>,
+        wanted: u64,
+        sheet: &Sheet,
+        quads: usize,
+    ) {
+        match texels {
+            Whole::Steps(texels) => self.gather_in(simd, texels, wanted, sheet, quads),
+            Whole::Codes(texels) => self.gather_in(simd, texels, wanted, sheet, quads),
+        }
+    }
+
+    /// [`Sums::gather`] of texels as they are kept.
+    #[inline(always)]
+    fn gather_in<S: Simd>(
+        &mut self,
+        simd: S,
+        texels: &[impl Quad],
         wanted: u64,
         sheet: &Sheet,
         quads: usize,
@@ -370,7 +406,7 @@ impl Sums {
     fn finish<S: Simd>(
         &mut self,
         simd: S,
-        texels: &[Texel],
+        texels: Whole<'_>,
         wanted: u64,
         sheet: &Sheet,
         quads: usize,
@@ -390,25 +426,38 @@ impl Sums {
 
 /// The sum of so many quads of a walk, which is sure to fit 31 bits.
 #[inline(always)]
-fn small<S: Simd>(simd: S, texels: &[Texel], sheet: &Sheet, quads: usize, walk: usize) -> i32x4<S> {
+fn small<S: Simd, T: Quad>(
+    simd: S,
+    texels: &[T],
+    sheet: &Sheet,
+    quads: usize,
+    walk: usize,
+) -> i32x4<S> {
     let mut own = i32x8::splat(simd, 0);
     for (weights, at) in sheet.quads(quads, walk) {
-        own += quad(simd, texels, weights, at);
+        own += T::weighed(simd, texels, weights, at);
     }
-    fold(own)
+    fold(own) << T::BITS
 }
 
 /// The sum of so many quads of a walk, whatever it is.
 #[inline(always)]
-fn large<S: Simd>(simd: S, texels: &[Texel], sheet: &Sheet, quads: usize, walk: usize) -> [f64; 4] {
+fn large<S: Simd, T: Quad>(
+    simd: S,
+    texels: &[T],
+    sheet: &Sheet,
+    quads: usize,
+    walk: usize,
+) -> [f64; 4] {
     let zero = i32x8::splat(simd, 0);
     let (mut high, mut low) = (zero, zero);
     let mut rest = sheet.quads(quads, walk);
     for _ in 0..quads.min(QUADS).div_ceil(ROOM) {
         let mut own = zero;
         for (weights, at) in rest.by_ref().take(ROOM) {
-            own += quad(simd, texels, weights, at);
+            own += T::weighed(simd, texels, weights, at);
         }
+        own <<= T::BITS;
         high += own >> 12;
         low += own & 0xfff;
     }
@@ -424,16 +473,80 @@ fn large<S: Simd>(simd: S, texels: &[Texel], sheet: &Sheet, quads: usize, walk: 
 /// 2¹⁴·⁴ each.
 const ROOM: usize = 12;
 
-/// Four texels of a row by their weights: Σ w·t of the channels, those of every second texel apart.
+/// A texel of which four of a row are read together.
+trait Quad: Copy {
+    /// Steps of its unit, as a power of two.
+    const BITS: u32;
+
+    /// Four from a place on by their weights: Σ w·t of the channels in its unit, those of every second texel
+    /// apart.
+    fn weighed<S: Simd>(simd: S, texels: &[Self], weights: i64, at: i32) -> i32x8<S>;
+}
+
+impl Quad for Texel {
+    const BITS: u32 = 0;
+
+    #[inline(always)]
+    fn weighed<S: Simd>(simd: S, texels: &[Self], weights: i64, at: i32) -> i32x8<S> {
+        let i = at as u32 as usize;
+        let Some(run) = texels.get(i..i + LANES) else { return nothing(simd) };
+        let texels = i16x16::from_slice(simd, run.as_flattened());
+        let texels = texels.swizzle_dyn_within_blocks(u8x32::from_slice(simd, &PAIR[..32]));
+        weigh(simd, texels, weights)
+    }
+}
+
+/// Makes pairs of the channels of two texels in codes, of four in every block of sixteen bytes: those of the
+/// first two in the first block, of the others in the second. Every second byte is of no meaning.
+const PAIR_OF_CODES: [u8; 32] = {
+    let mut bytes = [0; 32];
+    let mut i = 0;
+    while i < 32 {
+        bytes[i] = (i / 16 * 8 + i % 16 / 4 + i % 4 / 2 * 4) as u8;
+        i += 1;
+    }
+    bytes
+};
+
+impl Quad for Code {
+    const BITS: u32 = CODE_BITS;
+
+    #[inline(always)]
+    fn weighed<S: Simd>(simd: S, texels: &[Self], weights: i64, at: i32) -> i32x8<S> {
+        let i = at as u32 as usize;
+        let Some(run) = texels.get(i..i + LANES) else { return nothing(simd) };
+        let codes = u8x32::block_splat(u8x16::from_slice(simd, run.as_flattened()));
+        let codes = codes.swizzle_dyn_within_blocks(u8x32::load_array(simd, PAIR_OF_CODES));
+        weigh(simd, codes.bitcast::<i16x16<S>>() & 0xff, weights)
+    }
+}
+
+/// What there is where no texel is: never, since indices are of texels. A branch that is not taken costs less
+/// than a choice of what to read.
+#[cold]
+#[inline(never)]
+fn nothing<S: Simd>(simd: S) -> i32x8<S> {
+    i32x8::splat(simd, 0)
+}
+
+/// Takes the pair of weights on the left four times, then that on the right, out of blocks of both.
+const SPREAD: [u8; 32] = {
+    let mut bytes = [0; 32];
+    let mut i = 0;
+    while i < 32 {
+        bytes[i] = (i / 16 * 4 + i % 4) as u8;
+        i += 1;
+    }
+    bytes
+};
+
+/// The products of pairs of channels and of weights: the weights of two texels side by side are a pair, and so
+/// are their channels.
 #[inline(always)]
-fn quad<S: Simd>(simd: S, texels: &[Texel], [left, right]: [i32; 2], at: i32) -> i32x8<S> {
-    let i = at as u32 as usize;
-    let run = texels.get(i..i + LANES).unwrap_or(&[[0; 4]; LANES]);
-    let texels = i16x16::from_slice(simd, run.as_flattened());
-    // The weights of two texels side by side are a pair; so are, after this, their channels.
-    let texels = texels.swizzle_dyn_within_blocks(u8x32::from_slice(simd, &PAIR[..32]));
-    let pairs = i32x4::splat(simd, left).combine(i32x4::splat(simd, right));
-    texels.pairwise_dot_product(pairs.bitcast::<i16x16<S>>())
+fn weigh<S: Simd>(simd: S, channels: i16x16<S>, weights: i64) -> i32x8<S> {
+    let pairs = i64x4::splat(simd, weights).bitcast::<u8x32<S>>();
+    let pairs = pairs.swizzle_dyn_within_blocks(u8x32::load_array(simd, SPREAD));
+    channels.pairwise_dot_product(pairs.bitcast::<i16x16<S>>())
 }
 
 /// The sum of the two blocks of four.

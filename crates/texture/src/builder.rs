@@ -112,9 +112,9 @@ impl<P: Channels, A: Alpha> TextureBuilder<P, A> {
         let decoder = Decoder::new(format, options.space, width.saturating_mul(height));
         let old = old.map_or(Vec::new(), |old| old.levels);
         let making = if options.storage.is_float(format.is_of_bytes()) {
-            Work::Float(Making::new(size, options, old)?)
+            Work::Float(Making::new(size, options, false, old)?)
         } else {
-            Work::Compact(Making::new(size, options, old)?)
+            Work::Compact(Making::new(size, options, decoder.has_codes(|| !P::ALPHA), old)?)
         };
         let end = making.rows().end;
         Ok(Self { size, options: *options, decoder, making, rows: 0, end })

@@ -81,6 +81,12 @@ impl<P: Channels, A: Alpha> Decoder<P, A> {
         self.format.is_bounded()
     }
 
+    /// Whether every texel has codes; `opaque` tells whether all pixels are opaque.
+    pub(crate) fn has_codes(&self, opaque: impl FnOnce() -> bool) -> bool {
+        let coded = self.format.is_of_bytes() && self.curve.is_none();
+        coded && (A::PREMULTIPLIED || opaque())
+    }
+
     /// The texels of pixels.
     #[inline(always)]
     pub(crate) fn row<T: Cell>(&self, lanes: impl Lanes, pixels: &[P], out: &mut [T]) {

@@ -1,6 +1,6 @@
-use crate::memory::Memory;
 use crate::pyramid::plan::Span;
-use crate::texel::{Cell, STEP, Texel, color, of_color};
+use crate::store::{Code, Store, Stored, Strip, Whole};
+use crate::texel::{Cell, STEP, Texel, of_color};
 use crate::{TextureError, Wrap};
 use fearless_simd::{Simd, i32x16, mask32x16, prelude::*};
 use scumble_pixel::ImageView;
@@ -18,10 +18,7 @@ pub(crate) struct Level {
     /// Columns and rows that are kept.
     pub(crate) part: [Span; 2],
     pub(crate) stride: usize,
-    /// Texels in steps; none if they are floats.
-    pub(crate) texels: Memory<Texel>,
-    /// Texels as floats; none if they are in steps.
-    pub(crate) floats: Memory<[f32; 4]>,
+    pub(crate) texels: Store,
     /// The index in `texels` of texel (0, 0), which may not be kept, below zero: what is to be taken
     /// off y·stride + x.
     pub(crate) base: i32,
@@ -86,17 +83,16 @@ pub(crate) fn texels_kept(part: [Span; 2]) -> Option<usize> {
 
 impl Level {
     /// A level of no meaning, to be filled, in the memory of another if that is of its size.
-    pub(crate) fn new<T: Cell>(
+    pub(crate) fn new<T: Stored>(
         [width, height]: [usize; 2],
         part: [Span; 2],
-        mut old: Option<Self>,
+        old: Option<Self>,
     ) -> Result<Self, TextureError> {
         let too_large = TextureError::TooLarge { width, height };
         let [columns, rows] = part;
         let stride = stride(columns.len());
         let len = texels_kept(part).ok_or(too_large)?;
         len.checked_mul(size_of::<T>()).ok_or(too_large)?;
-        let old = old.as_mut().map(|old| core::mem::take(T::memory(old))).unwrap_or_default();
         let most = [width, height].map(|n| if n == 1 { 2.5 } else { f32::INFINITY });
         // Sides are below 2²⁹.
         let last = [width, height].map(|n| n as i32 - 1);
@@ -110,25 +106,17 @@ impl Level {
         // Whatever wraps around here wraps back where it is taken off.
         let [x0, y0] = [columns, rows].map(|span| span.start as i32 - apron);
         let base = y0.wrapping_mul(stride as i32).wrapping_add(x0);
-        let mut level = Self {
+        Ok(Self {
             width,
             height,
             part,
             stride,
-            texels: Memory::default(),
-            floats: Memory::default(),
+            texels: Store::new::<T>(len, old.map(|old| old.texels))?,
             base,
             mask: [-1; 2],
             outside: Texel::default(),
             frame,
-        };
-        *T::memory(&mut level) = if old.len() == len {
-            old
-        } else {
-            drop(old);
-            Memory::zeroed(len)?
-        };
-        Ok(level)
+        })
     }
 
     /// This level as one over an image of the given size, made by steps that add `step` squared texels
@@ -151,10 +139,10 @@ impl Level {
     pub(crate) fn seal(&mut self, wrap: Wrap, stored: &[Span]) {
         self.frame.ends = matches!(wrap, Wrap::Clamp | Wrap::Constant(_));
         self.outside = of_color(wrap.border());
-        if self.is_float() {
-            self.fill_apron::<[f32; 4]>(wrap, stored);
-        } else {
-            self.fill_apron::<Texel>(wrap, stored);
+        match self.texels {
+            Store::Steps(_) => self.fill_apron::<Texel>(wrap, stored),
+            Store::Codes(_) => self.fill_apron::<Code>(wrap, stored),
+            Store::Floats(_) => self.fill_apron::<[f32; 4]>(wrap, stored),
         }
         let Self { width, height, .. } = *self;
         let short = self.frame.low[0] < self.frame.high[0];
@@ -167,7 +155,7 @@ impl Level {
         }
     }
 
-    fn fill_apron<T: Cell>(&mut self, wrap: Wrap, stored: &[Span]) {
+    fn fill_apron<T: Stored>(&mut self, wrap: Wrap, stored: &[Span]) {
         let Self { width, height, stride, part: [columns, rows], .. } = *self;
         let border = T::of_color(wrap.border());
         let apron = APRON as i32;
@@ -179,7 +167,7 @@ impl Level {
         };
         let left = beside(columns.start as i32 - apron);
         let right = beside(columns.end as i32);
-        let memory = T::memory(self);
+        let Some(memory) = T::kept(&mut self.texels) else { return };
         let kept = memory.chunks_exact_mut(stride).skip(APRON).take(rows.len());
         for (y, row) in kept.enumerate() {
             let stored = stored.get(y).copied().unwrap_or(columns);
@@ -216,8 +204,8 @@ impl Level {
 
     /// The columns of row `y`, which must exist, that are kept, and the apron on both sides.
     #[inline(always)]
-    pub(crate) fn row_with_apron(&self, y: usize) -> &[Texel] {
-        &self.texels[self.start(y) - APRON..][..self.part[0].len() + 2 * APRON]
+    pub(crate) fn row_with_apron(&self, y: usize) -> Whole<'_> {
+        self.texels.whole().part(self.start(y) - APRON, self.part[0].len() + 2 * APRON)
     }
 
     /// The texels that are kept as an image without a place.
@@ -270,10 +258,20 @@ impl Level {
         (y & self.mask[1]) * (self.stride as i32) + (x & self.mask[0]) - self.base
     }
 
-    /// The same to write to, if they are kept.
-    pub(crate) fn row_mut<T: Cell>(&mut self, y: usize) -> Option<&mut [T]> {
+    /// The columns of row `y` that are kept, if the row is and its texels are such.
+    #[cfg(feature = "parallel")]
+    pub(crate) fn row<T: Stored>(&mut self, y: usize) -> Option<&[T]> {
         let (start, [columns, rows]) = (self.start(y), self.part);
-        rows.holds(y).then(|| T::memory(self).get_mut(start..start + columns.len()))?
+        let memory = T::kept(&mut self.texels).filter(|_| rows.holds(y))?;
+        memory.get(start..start + columns.len())
+    }
+
+    /// Stores texels of row `y`, from so many of the columns that are kept on, if the row is kept.
+    pub(crate) fn put<T: Cell>(&mut self, y: usize, from: usize, texels: &[T]) {
+        let (start, [_, rows]) = (self.start(y) + from, self.part);
+        if rows.holds(y) {
+            Strip::<T>::of(&mut self.texels).put(start, texels);
+        }
     }
 
     /// Where texel (x, y), which [`Level::holds`], stands in its memory; elsewhere something of no
@@ -289,27 +287,31 @@ impl Level {
     #[inline(always)]
     pub(crate) fn stored(&self, x: i32, y: i32, wrap: Wrap) -> Texel {
         match (wrap.resolve(x, self.width), wrap.resolve(y, self.height)) {
-            (Some(x), Some(y)) => self.texels[self.start(y) + self.part[0].place(x)],
+            (Some(x), Some(y)) => self.texels.whole().texel(self.start(y) + self.part[0].place(x)),
             _ => self.outside,
+        }
+    }
+
+    /// The numbers of the texel at (x, y), which may lie outside, in the level's unit.
+    #[inline(always)]
+    pub(crate) fn numbers(&self, x: i32, y: i32, wrap: Wrap) -> [f32; 4] {
+        match (wrap.resolve(x, self.width), wrap.resolve(y, self.height)) {
+            (Some(x), Some(y)) => self.texels.numbers(self.start(y) + self.part[0].place(x)),
+            _ if self.is_float() => wrap.border(),
+            _ => self.outside.numbers(),
         }
     }
 
     /// The colour of the texel at (x, y), which may lie outside.
     #[inline(always)]
     pub(crate) fn texel(&self, x: i32, y: i32, wrap: Wrap) -> [f32; 4] {
-        if !self.is_float() {
-            return color(self.stored(x, y, wrap));
-        }
-        match (wrap.resolve(x, self.width), wrap.resolve(y, self.height)) {
-            (Some(x), Some(y)) => self.floats[self.start(y) + self.part[0].place(x)],
-            _ => wrap.border(),
-        }
+        self.numbers(x, y, wrap).map(|v| v * self.unit())
     }
 
     /// Whether texels are floats.
     #[inline(always)]
     pub(crate) fn is_float(&self) -> bool {
-        !self.floats.is_empty()
+        matches!(self.texels, Store::Floats(_))
     }
 
     /// What a number of a texel is counted in: [`STEP`] or 1.
@@ -322,17 +324,11 @@ impl Level {
     pub(crate) fn mean(&self) -> [f32; 4] {
         let [columns, rows] = self.part;
         let mut sum = [0.0; 4];
-        let mut rest = [0i64; 4];
         for y in rows.start..rows.end {
-            let start = self.start(y);
-            for t in self.floats.get(start..start + columns.len()).unwrap_or(&[]) {
-                (0..4).for_each(|c| sum[c] += f64::from(t[c]));
-            }
-            for t in self.texels.get(start..start + columns.len()).unwrap_or(&[]) {
-                (0..4).for_each(|c| rest[c] += i64::from(t[c]));
-            }
+            let row = self.texels.sum(self.start(y), columns.len());
+            (0..4).for_each(|c| sum[c] += row[c]);
         }
         let n = columns.len() as f64 * rows.len() as f64;
-        core::array::from_fn(|c| ((sum[c] + rest[c] as f64) / n) as f32 * self.unit())
+        sum.map(|sum| (sum / n) as f32 * self.unit())
     }
 }

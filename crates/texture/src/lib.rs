@@ -151,6 +151,7 @@ mod sampler;
 mod separable;
 mod simd;
 mod square;
+mod store;
 mod texel;
 mod texture;
 mod walk;

@@ -13,6 +13,7 @@ pub(crate) trait Plain: Copy + Default + bytemuck::Pod {}
 pub(crate) trait Plain: Copy + Default {}
 
 impl Plain for [i16; 4] {}
+impl Plain for [u8; 4] {}
 impl Plain for [f32; 4] {}
 
 /// Memory of so many texels.

@@ -4,7 +4,6 @@
 use crate::level::Level;
 use crate::lod::{self, Pick};
 use crate::math::{floor, whole};
-use crate::texel::steps;
 use crate::{Footprint, LevelMode, Texture, Wrap};
 use scumble_pixel::Premul;
 
@@ -39,7 +38,7 @@ impl Point for Nearest {
     const SHIFT: f64 = 0.0;
 
     fn color(self, level: &Level, wrap: Wrap, [x, y]: [i32; 2], _: [f32; 2]) -> [f32; 4] {
-        numbers(level, wrap, x, y)
+        level.numbers(x, y, wrap)
     }
 }
 
@@ -49,14 +48,9 @@ impl Point for Bilinear {
 
     /// First down, then along.
     fn color(self, level: &Level, wrap: Wrap, [x, y]: [i32; 2], rest: [f32; 2]) -> [f32; 4] {
-        let column = |x| lerp(numbers(level, wrap, x, y), numbers(level, wrap, x, y + 1), rest[1]);
+        let column = |x| lerp(level.numbers(x, y, wrap), level.numbers(x, y + 1, wrap), rest[1]);
         lerp(column(x), column(x + 1), rest[0])
     }
-}
-
-/// The texel at (x, y), which may lie outside, in the level's unit.
-fn numbers(level: &Level, wrap: Wrap, x: i32, y: i32) -> [f32; 4] {
-    if level.is_float() { level.texel(x, y, wrap) } else { steps(level.stored(x, y, wrap)) }
 }
 
 /// The colour of a footprint.

@@ -5,11 +5,12 @@ use crate::level::Level;
 use crate::lod;
 use crate::point::{Bilinear, Nearest, Point};
 use crate::run::{ABREAST, Run, Sixteen};
-use crate::texel::{Cell, Texel};
+use crate::store::{CODE_BITS, Code, Store, Stored};
+use crate::texel::Texel;
 use crate::walk_simd::expand;
 use crate::{LevelMode, Texture};
 use fearless_simd::{
-    Simd, f32x8, f32x16, f64x4, i16x8, i16x16, i32x16, mask32x16, prelude::*, u8x64,
+    Simd, f32x8, f32x16, f64x4, i16x8, i16x16, i32x16, mask32x16, prelude::*, u8x16, u8x64, u32x4,
 };
 use scumble_pixel::Premul;
 
@@ -43,7 +44,7 @@ pub(crate) trait Points: Point {
 }
 
 /// A texel as it is read into lanes, from an index which is 0 or holds.
-pub(crate) trait Read: Cell {
+pub(crate) trait Read: Stored {
     /// Four of them, from anywhere.
     fn four<S: Simd>(simd: S, texels: &[Self], at: &[i32; FOUR]) -> f32x16<S>;
 
@@ -69,6 +70,29 @@ impl Read for Texel {
     fn two<S: Simd>(simd: S, texels: &[Self], at: usize) -> f32x8<S> {
         let run = texels.get(at..at + 2).unwrap_or(&[[0; 4]; 2]);
         let (low, high) = i16x8::from_slice(simd, run.as_flattened()).widen();
+        low.combine(high).to_float()
+    }
+}
+
+impl Read for Code {
+    #[inline(always)]
+    fn four<S: Simd>(simd: S, texels: &[Self], at: &[i32; FOUR]) -> f32x16<S> {
+        let mut codes = [[0; 4]; FOUR];
+        for (codes, at) in codes.iter_mut().zip(at) {
+            *codes = *texels.get(*at as u32 as usize).unwrap_or(&[0; 4]);
+        }
+        let bits = codes.map(u32::from_le_bytes);
+        let (low, high) = u32x4::load_array(simd, bits).bitcast::<u8x16<S>>().widen();
+        floats((low.combine(high) << CODE_BITS).bitcast())
+    }
+
+    #[inline(always)]
+    fn two<S: Simd>(simd: S, texels: &[Self], at: usize) -> f32x8<S> {
+        let run = texels.get(at..at + 2).unwrap_or(&[[0; 4]; 2]);
+        let mut codes = [[0; 4]; 4];
+        codes[..2].copy_from_slice(run);
+        let (low, _) = u8x16::from_slice(simd, codes.as_flattened()).widen();
+        let (low, high) = (low << CODE_BITS).bitcast::<i16x8<S>>().widen();
         low.combine(high).to_float()
     }
 }
@@ -233,10 +257,10 @@ impl<S: Simd, P: Points> Batch<'_, S, P> {
         let at = level.indices(simd, [x0, y0], [P::SIDE; 2]);
         let at = here.select(at, i32x16::splat(simd, 0)).to_array();
         let rest = [fx.to_array(), fy.to_array()];
-        let mut colors = if level.is_float() {
-            self.read(&level.floats, level.stride, &at, &rest)
-        } else {
-            self.read(&level.texels, level.stride, &at, &rest)
+        let mut colors = match &level.texels {
+            Store::Steps(texels) => self.read(texels, level.stride, &at, &rest),
+            Store::Codes(texels) => self.read(texels, level.stride, &at, &rest),
+            Store::Floats(texels) => self.read(texels, level.stride, &at, &rest),
         };
         for i in lanes(wanted & !here.to_bitmask()) {
             let (at, rest) = ([x0.to_array()[i], y0.to_array()[i]], [rest[0][i], rest[1][i]]);

@@ -5,15 +5,14 @@
 //! sixty-four to each code of eight bits: codes are exact, and so are the sums of up to 64 of them that
 //! the box filter divides. Rounding to a step is noise at −95 dB.
 
-use crate::level::Level;
-use crate::memory::{Memory, Plain};
 use crate::pyramid::{Lanes, halve};
+use crate::store::{self, Code, Stored};
 
 /// Premultiplied RGBA in the working space, in steps.
 pub(crate) type Texel = [i16; 4];
 
-/// A texel as it is stored: in steps, or in floats.
-pub(crate) trait Cell: Plain + Send + Sync {
+/// A texel as pyramids are made of: in steps, or in floats.
+pub(crate) trait Cell: Stored {
     /// A channel.
     type Number: Copy + Into<f32>;
     /// Whether it is rounded to a step, after which sums of constants are the constant again.
@@ -28,8 +27,8 @@ pub(crate) trait Cell: Plain + Send + Sync {
     fn of_numbers(numbers: [f32; 4]) -> Self;
     /// The texels nearest to such numbers: many at a time, which is quicker.
     fn put(numbers: &[[f32; 4]], out: &mut [Self]);
-    /// The texel nearest to a colour.
-    fn of_color(color: [f32; 4]) -> Self;
+    /// Its codes, of a level that keeps texels as such.
+    fn code(self) -> Code;
     /// The texel of a colour in parts of 255².
     fn of_products(products: [f32; 4]) -> Self;
     /// The texel of numbers in steps.
@@ -45,8 +44,6 @@ pub(crate) trait Cell: Plain + Send + Sync {
     fn halve(_: impl Lanes, above: &[Self], below: &[Self], out: &mut [Self]) {
         halve(above, below, out);
     }
-    /// The memory of a level of such texels.
-    fn memory(level: &mut Level) -> &mut Memory<Self>;
 }
 
 impl Cell for Texel {
@@ -86,8 +83,8 @@ impl Cell for Texel {
     }
 
     #[inline(always)]
-    fn of_color(color: [f32; 4]) -> Self {
-        of_color(color)
+    fn code(self) -> Code {
+        store::code(self)
     }
 
     #[inline(always)]
@@ -110,10 +107,6 @@ impl Cell for Texel {
     #[inline(always)]
     fn halve(lanes: impl Lanes, above: &[Self], below: &[Self], out: &mut [Self]) {
         lanes.halve(above, below, out);
-    }
-
-    fn memory(level: &mut Level) -> &mut Memory<Self> {
-        &mut level.texels
     }
 }
 
@@ -150,8 +143,8 @@ impl Cell for [f32; 4] {
     }
 
     #[inline(always)]
-    fn of_color(color: [f32; 4]) -> Self {
-        color
+    fn code(self) -> Code {
+        Code::of_color(self)
     }
 
     #[inline(always)]
@@ -162,10 +155,6 @@ impl Cell for [f32; 4] {
     #[inline(always)]
     fn of_steps(steps: Texel) -> Self {
         color(steps)
-    }
-
-    fn memory(level: &mut Level) -> &mut Memory<Self> {
-        &mut level.floats
     }
 }
 

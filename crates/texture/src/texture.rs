@@ -9,6 +9,7 @@ use crate::points::Points;
 use crate::pyramid;
 use crate::pyramid::plan::{self, Plan};
 use crate::run::{InRow, Listed, Run};
+use crate::store::{self, Store};
 use crate::texel::{self, Cell, Texel};
 use crate::wrap::Nearer;
 use crate::{
@@ -94,9 +95,10 @@ impl Texture {
         let pixels = size[0].saturating_mul(size[1]);
         let decoder = Decoder::new(texels.format, options.space, pixels);
         let levels = if options.storage.is_float(texels.format.is_of_bytes()) {
-            pyramid::image::<[f32; 4], _, _>(texels.view, &decoder, options, old)?
+            pyramid::image::<[f32; 4], _, _>(texels.view, &decoder, options, false, old)?
         } else {
-            pyramid::image::<Texel, _, _>(texels.view, &decoder, options, old)?
+            let coded = decoder.has_codes(|| texels.is_opaque());
+            pyramid::image::<Texel, _, _>(texels.view, &decoder, options, coded, old)?
         };
         Self::over(levels, size, options, texels.format.is_bounded())
     }
@@ -140,11 +142,8 @@ impl Texture {
         bounded: bool,
     ) -> Result<Self, TextureError> {
         let TextureOptions { space, wrap, .. } = *options;
-        let average = match &levels[..] {
-            [.., last @ Level { width: 1, height: 1, .. }] => last.mean(),
-            [base, ..] => base.mean(),
-            [] => return Err(TextureError::Empty),
-        };
+        // Of all levels the coarsest has the fewest texels, and the same mean.
+        let average = levels.last().ok_or(TextureError::Empty)?.mean();
         let first = plan::kept_levels(size, options.levels).start;
         for (l, level) in levels.iter_mut().enumerate() {
             level.seal(wrap, &plan::stored_rows(size, first + l, options));
@@ -193,10 +192,13 @@ impl Texture {
     #[must_use]
     pub fn level(&self, index: usize) -> Option<Image<[f32; 4]>> {
         let level = self.levels.get(index)?;
-        if level.is_float() {
-            return Some(level.view(&level.floats)?.to_image());
-        }
-        Some(level.view(&level.texels)?.to_image().map(|t| texel::color(*t)))
+        Some(match &level.texels {
+            Store::Floats(texels) => level.view(texels)?.to_image(),
+            Store::Steps(texels) => level.view(texels)?.to_image().map(|t| texel::color(*t)),
+            Store::Codes(texels) => {
+                level.view(texels)?.to_image().map(|t| texel::color(store::of_code(*t)))
+            }
+        })
     }
 
     /// The texels of a level that are kept, in texels of that level: all unless
@@ -212,7 +214,7 @@ impl Texture {
     /// Bytes of texels that this texture holds.
     #[must_use]
     pub fn memory(&self) -> usize {
-        self.levels.iter().map(|l| size_of_val(&l.texels[..]) + size_of_val(&l.floats[..])).sum()
+        self.levels.iter().map(|level| level.texels.bytes()).sum()
     }
 
     /// Bytes of texels that a texture of this size will hold; `None` if that overflows or a
@@ -405,11 +407,13 @@ fn colored<T: Cell>(
     size: [usize; 2],
     options: &TextureOptions,
 ) -> Result<Vec<Level>, TextureError> {
-    let mut levels = Plan::new(size, options).empty::<T>(options, Vec::new())?;
+    let mut levels = Plan::new(size, options).empty::<T>(options, false, Vec::new())?;
     let first = plan::kept_levels(size, options.levels).start;
     for (l, level) in levels.iter_mut().enumerate() {
         let [r, g, b] = LEVEL_COLORS[(first + l) % LEVEL_COLORS.len()];
-        T::memory(level).fill(T::of_color([r, g, b, 1.0]));
+        if let Some(memory) = T::kept(&mut level.texels) {
+            memory.fill(T::of_color([r, g, b, 1.0]));
+        }
     }
     Ok(levels)
 }

@@ -8,6 +8,7 @@ use crate::gaussian::weight;
 use crate::level::{APRON, Frame, Level};
 use crate::math::{floor, floor32, sqrt32, whole};
 use crate::pyramid::plan::Span;
+use crate::store::Whole;
 use crate::texel::{STEP, Texel};
 
 /// Texels of a row that are read in one piece: a quad.
@@ -217,7 +218,7 @@ pub(crate) fn mean(sums: [f64; 4], share: f64) -> [f32; 4] {
 #[derive(Clone, Copy)]
 pub(crate) struct Row<'a> {
     /// With the apron on both sides.
-    texels: Option<&'a [Texel]>,
+    texels: Option<Whole<'a>>,
     /// The constant.
     outside: Texel,
     /// Columns that are kept, the apron apart.
@@ -235,18 +236,14 @@ impl<'a> Row<'a> {
         Self { texels, outside: level.outside, columns: level.part[0], width: level.width, wrap }
     }
 
-    /// Calls `f` with the [`LANES`] texels from column `x`: in place where they lie inside,
-    /// collected where they do not.
+    /// The [`LANES`] texels from column `x`: a copy where they lie inside, collected where they do not.
     #[inline(always)]
-    pub(crate) fn with_run<R>(&self, x: i32, f: impl FnOnce(&[Texel; LANES]) -> R) -> R {
+    pub(crate) fn run(&self, x: i32) -> [Texel; LANES] {
         // Sizes are below 2²⁹. In a tile, every run begins in the row, and the apron ends it.
         let x = if self.wrap == Wrap::Repeat { x.rem_euclid(self.width as i32) } else { x };
         let place = usize::try_from(x - self.columns.start as i32 + APRON as i32);
-        let inside = self.texels.and_then(|row| row.get(place.ok()?..)?.first_chunk());
-        match inside {
-            Some(run) => f(run),
-            None => f(&self.collect(x)),
-        }
+        let inside = self.texels.and_then(|row| row.run(place.ok()?));
+        inside.unwrap_or_else(|| self.collect(x))
     }
 
     #[cold]
@@ -255,7 +252,7 @@ impl<'a> Row<'a> {
         core::array::from_fn(|i| {
             let found = self.texels.and_then(|row| {
                 let column = self.wrap.resolve(x + i as i32, self.width)?;
-                Some(row[self.columns.place(column) + APRON])
+                Some(row.texel(self.columns.place(column) + APRON))
             });
             found.unwrap_or(self.outside)
         })
@@ -280,7 +277,7 @@ pub(crate) fn walk(level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
             let offset = ((shift + 1.0) - half) - (low - before);
             let row = w.row(j, level, wrap);
             let start = w.x0 + 1 + LANES as i32 * group + before as i32;
-            let run = row.with_run(start, |run| *run);
+            let run = row.run(start);
             for (i, texel) in run.iter().enumerate() {
                 let dx = offset + i as f32;
                 let e = e + w.run_scale * (dx * dx);

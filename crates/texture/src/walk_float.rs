@@ -75,7 +75,7 @@ fn add(sums: &mut [f32; WIDE], weights: &[i32; RUN], run: &[[f32; 4]; RUN], abou
 #[inline(always)]
 fn run(level: &Level, wrap: Wrap, x: i32, y: i32) -> [[f32; 4]; RUN] {
     let inside = level.holds([x, y], [x + RUN as i32 - 1, y]);
-    match level.floats.get(level.index(x, y)..).and_then(<[_]>::first_chunk) {
+    match level.texels.floats().and_then(|f| f.get(level.index(x, y)..)?.first_chunk()) {
         Some(run) if inside => *run,
         _ => collect(level, wrap, x, y),
     }

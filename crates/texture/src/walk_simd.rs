@@ -88,11 +88,7 @@ pub(crate) fn walk<S: Simd>(simd: S, level: &Level, wrap: Wrap, w: &Walk) -> [f3
                     |q| {
                         let i = p * QUADS + q;
                         let row = w.row(j + i as i32, level, wrap);
-                        row.with_run(
-                            x[i],
-                            #[inline(always)]
-                            |run| i16x16::from_slice(simd, run.as_flattened()),
-                        )
+                        i16x16::from_slice(simd, row.run(x[i]).as_flattened())
                     },
                 );
                 sums.settle(simd);

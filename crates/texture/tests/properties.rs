@@ -6,18 +6,22 @@ mod common;
 use common::{constant, ground, noise};
 use proptest::prelude::*;
 use scumble_geometry::{DVec2, Homography, Matrix2};
-use scumble_pixel::{Premul, WorkingSpace};
+use scumble_pixel::{Image, Premul, WorkingSpace};
 use scumble_texture::{
     Decimation, Footprint, Kernel, LevelMode, Levels, Magnify, PixelFilter, Sampler, Separable,
-    Simd, Storage, Texture, TextureOptions, Wrap,
+    Simd, Storage, StraightAlpha, TexelFormat, Texture, TextureBuilder, TextureOptions, Wrap,
 };
+
+/// A colour that bytes do not hold.
+const BETWEEN_CODES: Wrap = Wrap::Constant(Premul([0.1, 0.2, 0.3, 0.5]));
 
 fn wraps() -> impl Strategy<Value = Wrap> {
     prop_oneof![
         Just(Wrap::Clamp),
         Just(Wrap::Repeat),
         Just(Wrap::Mirror),
-        Just(Wrap::Constant(Premul([0.1, 0.2, 0.3, 0.5]))),
+        Just(Wrap::Constant(Premul::TRANSPARENT)),
+        Just(BETWEEN_CODES),
     ]
 }
 
@@ -84,8 +88,15 @@ fn footprints() -> impl Strategy<Value = Footprint> {
         .prop_map(|(u, v, [a, b, c, d])| Footprint { u, v, jacobian: Matrix2::new(a, b, c, d) })
 }
 
+/// Of noise, opaque for every second seed: level 0 may be kept in codes then.
 fn texture(width: usize, height: usize, seed: u64, options: &TextureOptions) -> Texture {
-    Texture::new(noise(width, height, seed).view(), options).unwrap()
+    let image = if seed.is_multiple_of(2) { opaque } else { noise };
+    Texture::new(image(width, height, seed).view(), options).unwrap()
+}
+
+/// White noise in three channels.
+fn opaque(width: usize, height: usize, seed: u64) -> Image<[u8; 4]> {
+    noise(width, height, seed).map(|[r, g, b, _]| [*r, *g, *b, 255])
 }
 
 /// A rotation, a scale and a rotation.
@@ -167,6 +178,44 @@ proptest! {
             for (i, c) in row.iter().enumerate() {
                 let f = Footprint::at(&map, DVec2::new(x + i as f64, y));
                 prop_assert_eq!(*c, t.sample(&f, &sampler));
+            }
+        }
+    }
+
+    /// An image whose rows come one by one is not known to be opaque before it is kept: its level 0 is in
+    /// steps.
+    #[test]
+    fn an_opaque_image_is_kept_in_half_the_memory_and_is_the_same(
+        width in 1usize..90, height in 1usize..90, seed: u64,
+        options in options(), sampler in samplers(), f in footprints(),
+        x in -50.0..1300.0f64, y in -30.0..700.0f64,
+    ) {
+        let image = opaque(width, height, seed);
+        let codes = Texture::new(image.view(), &options).unwrap();
+        let format = TexelFormat::<[u8; 4], StraightAlpha>::straight();
+        let mut builder = TextureBuilder::new(width, height, format, &options).unwrap();
+        builder.push_rows(image.pixels()).unwrap();
+        let steps = builder.finish().unwrap();
+        let base = codes.level(0).unwrap();
+        let halved = options.space == WorkingSpace::Srgb
+            && options.storage == Storage::Compact
+            && (base.width(), base.height()) == (width, height)
+            && options.wrap != BETWEEN_CODES;
+        prop_assert_eq!(codes.memory() < steps.memory(), halved);
+        if halved && codes.level_count() == 1 {
+            prop_assert_eq!(codes.memory() * 2, steps.memory());
+        }
+        for l in 0..steps.level_count() {
+            prop_assert_eq!(codes.level(l), steps.level(l));
+        }
+        for simd in Simd::all() {
+            let (codes, steps) = (codes.clone().with_simd(simd), steps.clone().with_simd(simd));
+            prop_assert_eq!(codes.sample(&f, &sampler), steps.sample(&f, &sampler));
+            for map in [ground(64), Homography::IDENTITY] {
+                let [mut one, mut other] = [[Premul::TRANSPARENT; 21]; 2];
+                codes.sample_row(&map, DVec2::new(x, y), &sampler, &mut one);
+                steps.sample_row(&map, DVec2::new(x, y), &sampler, &mut other);
+                prop_assert_eq!(one, other, "{:?}", simd);
             }
         }
     }

@@ -140,9 +140,9 @@ fn square<const C: usize, const R: usize>(
     // Places are brought near, so that this fits.
     if level.holds([x, y], [x + C as i32 - 1, y + R as i32 - 1]) {
         let first = level.index(x, y);
-        let row = |r: usize| level.texels.get(first + r * level.stride..)?.first_chunk::<C>();
+        let row = |r: usize| level.texels.whole().run(first + r * level.stride);
         if let (Some(_), Some(_)) = (row(0), row(R - 1)) {
-            return core::array::from_fn(|r| row(r).copied().unwrap_or([[0; 4]; C]));
+            return core::array::from_fn(|r| row(r).unwrap_or([[0; 4]; C]));
         }
     }
     square_across(level, wrap, x, y)

@@ -10,6 +10,7 @@ use crate::level::{APRON, Level};
 use crate::pyramid::cascade::{Cascade, Kept, Sink};
 use crate::pyramid::plan::{Plan, Span};
 use crate::pyramid::rung::Course;
+use crate::store::Strip;
 use crate::texel::Cell;
 use crate::{Simd, TextureError};
 use alloc::vec::Vec;
@@ -31,13 +32,16 @@ const LEAST: usize = 16;
 struct Part<'a, T> {
     first: usize,
     /// For each level its rows, their distance, and their memory with the apron.
-    levels: Vec<(Span, usize, &'a mut [T])>,
+    levels: Vec<(Span, usize, Strip<'a, T>)>,
 }
 
 impl<T: Cell> Sink<T> for Part<'_, T> {
-    fn row(&mut self, level: usize, y: usize) -> Option<&mut [T]> {
-        let (rows, stride, texels) = self.levels.get_mut(level.checked_sub(self.first)?)?;
-        rows.holds(y).then(|| texels.get_mut((y - rows.start) * *stride + APRON..))?
+    fn put(&mut self, level: usize, y: usize, from: usize, texels: &[T]) {
+        if let Some((rows, stride, strip)) = self.levels.get_mut(level.wrapping_sub(self.first))
+            && rows.holds(y)
+        {
+            strip.put((y - rows.start) * *stride + APRON + from, texels);
+        }
     }
 }
 
@@ -101,10 +105,10 @@ impl<'a> Cuts<'a> {
         let mut parts: Vec<Part<'b, T>> = (0..self.count()).map(part).collect();
         for (l, level) in (first..=self.deepest).zip(levels) {
             let stride = level.stride;
-            let mut rest = T::memory(level).get_mut(APRON * stride..).unwrap_or(&mut []);
+            let (_, mut rest) = Strip::of(&mut level.texels).split_at(APRON * stride);
             for (band, part) in parts.iter_mut().enumerate() {
                 let rows = self.own(band, l);
-                let (own, others) = rest.split_at_mut((rows.len() * stride).min(rest.len()));
+                let (own, others) = rest.split_at(rows.len() * stride);
                 part.levels.push((rows, stride, own));
                 rest = others;
             }
@@ -150,7 +154,7 @@ fn rest<T: Cell>(plan: &Plan, base: usize, levels: &mut [Level]) -> Result<(), T
     let mut cascade = Cascade::<T>::new(plan, base, &plan.courses(base))?;
     let mut kept = Kept { first: base + 1, levels };
     while let Some(y) = cascade.next() {
-        let row = source.row_mut::<T>(y).unwrap_or(&mut []);
+        let row = source.row::<T>(y).unwrap_or(&[]);
         match Simd::best().0 {
             None => cascade.push_texels(Scalar, plan, &mut kept, row),
             Some(level) => dispatch!(level, simd => {

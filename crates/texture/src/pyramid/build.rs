@@ -9,6 +9,7 @@ use crate::pyramid::bands;
 use crate::pyramid::cascade::{Cascade, Kept};
 use crate::pyramid::plan::{LevelPlan, Plan};
 use crate::pyramid::rung::Course;
+use crate::store::{Code, has_code};
 use crate::texel::Cell;
 use crate::{Simd, TextureError, TextureOptions};
 use alloc::vec::Vec;
@@ -26,14 +27,16 @@ pub(crate) struct Making<T> {
 }
 
 impl<T: Cell> Making<T> {
-    /// Of an image that passes [`check`](crate::pyramid::plan::check), in the memory of other levels.
+    /// Of an image that passes [`check`](crate::pyramid::plan::check), in the memory of other levels. `coded`
+    /// says that all its texels have codes.
     pub(crate) fn new(
         size: [usize; 2],
         options: &TextureOptions,
+        coded: bool,
         old: Vec<Level>,
     ) -> Result<Self, TextureError> {
         let plan = Plan::new(size, options);
-        let levels = plan.empty::<T>(options, old)?;
+        let levels = plan.empty::<T>(options, coded, old)?;
         let cascade = Cascade::new(&plan, 0, &plan.courses(0))?;
         Ok(Self { plan, cascade, levels, simd: Simd::best() })
     }
@@ -72,9 +75,10 @@ pub(crate) fn image<T: Cell, P: Channels, A: Alpha>(
     view: ImageView<'_, P>,
     decoder: &Decoder<P, A>,
     options: &TextureOptions,
+    coded: bool,
     old: Vec<Level>,
 ) -> Result<Vec<Level>, TextureError> {
-    let mut making = Making::<T>::new([view.width(), view.height()], options, old)?;
+    let mut making = Making::<T>::new([view.width(), view.height()], options, coded, old)?;
     #[cfg(feature = "parallel")]
     if making.plan.is_whole()
         && bands::fill::<T, P, A>(view, decoder, &making.plan, &mut making.levels)?
@@ -88,20 +92,27 @@ pub(crate) fn image<T: Cell, P: Channels, A: Alpha>(
 }
 
 impl Plan {
-    /// The levels to be kept, without meaning yet, in the memory of others.
+    /// The levels to be kept, without meaning yet, in the memory of others. `coded` says that all texels of
+    /// the image have codes: what is beyond it must have them too, for its level to be kept in them.
     pub(crate) fn empty<T: Cell>(
         &self,
         options: &TextureOptions,
+        coded: bool,
         old: Vec<Level>,
     ) -> Result<Vec<Level>, TextureError> {
         let mut old = old.into_iter();
         let image = self.levels[0].size;
-        let level = |plan: &LevelPlan| {
+        let coded = coded && has_code(options.wrap.border());
+        let level = |(l, plan): (usize, &LevelPlan)| {
             let part = plan.kept?;
-            let level = Level::new::<T>(plan.size, part, old.next());
+            let level = if coded && l == 0 {
+                Level::new::<Code>(plan.size, part, old.next())
+            } else {
+                Level::new::<T>(plan.size, part, old.next())
+            };
             Some(level.map(|level| level.over(image, options.decimation.variance())))
         };
-        self.levels.iter().filter_map(level).collect()
+        self.levels.iter().enumerate().filter_map(level).collect()
     }
 
     /// The course of every level from `base` on where all its rows come in turn.
@@ -130,6 +141,7 @@ impl Plan {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::store::Store;
     use crate::texel::Texel;
     use crate::{Decimation, StraightAlpha, TexelFormat, Wrap};
     use proptest::prelude::*;
@@ -143,12 +155,15 @@ mod tests {
     ) -> Vec<Vec<Texel>> {
         let format = TexelFormat::<P, StraightAlpha>::straight();
         let decoder = Decoder::new(format, options.space, w * h);
-        let mut making = Making::<Texel>::new([w, h], options, Vec::new()).unwrap();
+        let coded = decoder.has_codes(|| !P::ALPHA);
+        let mut making = Making::<Texel>::new([w, h], options, coded, Vec::new()).unwrap();
         making.simd = simd;
         while let Some(y) = making.next() {
             making.push(&decoder, &pixels[y * w..][..w]);
         }
-        making.finish().into_iter().map(|level| level.texels.to_vec()).collect()
+        let texels =
+            |store: &Store| (0..).map_while(|i| Some(store.whole().run::<1>(i)?[0])).collect();
+        making.finish().iter().map(|level| texels(&level.texels)).collect()
     }
 
     fn agree<P: Channels>(size: [usize; 2], pixels: &[P], options: &TextureOptions) {

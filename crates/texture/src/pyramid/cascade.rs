@@ -13,8 +13,9 @@ use alloc::vec::Vec;
 
 /// Where the rows of the levels go that are kept.
 pub(crate) trait Sink<T> {
-    /// The memory of row `y` of a level, if it is kept here.
-    fn row(&mut self, level: usize, y: usize) -> Option<&mut [T]>;
+    /// Takes texels of row `y` of a level, from so many of the columns that are kept on, if the row is kept
+    /// here.
+    fn put(&mut self, level: usize, y: usize, from: usize, texels: &[T]);
 }
 
 /// The levels that a texture keeps, whole.
@@ -24,9 +25,10 @@ pub(crate) struct Kept<'a> {
 }
 
 impl<T: Cell> Sink<T> for Kept<'_> {
-    fn row(&mut self, level: usize, y: usize) -> Option<&mut [T]> {
-        let level = self.levels.get_mut(level.checked_sub(self.first)?)?;
-        level.row_mut(y)
+    fn put(&mut self, level: usize, y: usize, from: usize, texels: &[T]) {
+        if let Some(level) = self.levels.get_mut(level.wrapping_sub(self.first)) {
+            level.put(y, from, texels);
+        }
     }
 }
 
@@ -129,11 +131,10 @@ impl<T: Cell> Cascade<T> {
         let (level, y) = (self.base + at, rung.index());
         if let Some([columns, _]) = plan.levels[level].kept
             && let Some(stored) = plan.levels[level].stored(y)
-            && let Some(row) = sink.row(level, y)
         {
-            let (from, to) = (stored.start - rung.columns().start, stored.start - columns.start);
+            let from = stored.start - rung.columns().start;
             let texels = &rung.slot()[from..from + stored.len()];
-            row[to..to + stored.len()].copy_from_slice(texels);
+            sink.put(level, y, stored.start - columns.start, texels);
         }
         rung.advance();
     }

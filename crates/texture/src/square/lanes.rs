@@ -123,7 +123,7 @@ impl<S: Simd> Batch<'_, S> {
         let simd = self.simd;
         let lane = mask32x16::from_bitmask(simd, wanted);
         let zero = i32x16::splat(simd, 0);
-        let mut gather = Gather::new(simd, &level.texels, wanted, false, self.sheet);
+        let mut gather = Gather::new(simd, level.texels.whole(), wanted, false, self.sheet);
         let [_, low] = shape.low;
         let count = (shape.high[1] - low).to_int::<i32x16<S>>() + 1;
         for r in 0..lane.select(count, zero).reduce_max() {

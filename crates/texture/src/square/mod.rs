@@ -104,15 +104,13 @@ fn weigh<const K: usize>(
     }
     let (mut sums, mut total) = ([0i64; 4], 0);
     for_each_quad(at, shape, rule, |[x, y], weights| {
-        Row::new(y, level, wrap).with_run(x, |run| {
-            for (texel, weight) in run.iter().zip(weights) {
-                let weight = (weight + ROUNDER).to_bits() as i32 - ROUNDER.to_bits() as i32;
-                total += weight;
-                for (sum, t) in sums.iter_mut().zip(texel) {
-                    *sum += i64::from(weight) * i64::from(*t);
-                }
+        for (texel, weight) in Row::new(y, level, wrap).run(x).iter().zip(weights) {
+            let weight = (weight + ROUNDER).to_bits() as i32 - ROUNDER.to_bits() as i32;
+            total += weight;
+            for (sum, t) in sums.iter_mut().zip(texel) {
+                *sum += i64::from(weight) * i64::from(*t);
             }
-        });
+        }
     });
     if total <= 0 {
         return nearest(level, wrap, at);
