@@ -5,7 +5,7 @@
 //! reads its texels, all with the same count of quads, so that the processor foresees every branch.
 
 use crate::batch::lanes;
-use crate::level::Level;
+use crate::level::{Level, Places};
 use crate::magnify::patch::Patch;
 use crate::run::ABREAST;
 use crate::store::{CODE_BITS, Code, Whole};
@@ -48,7 +48,7 @@ pub(crate) struct Walks<S: Simd> {
 /// Memory for [`walk_all`], made once for a run of pixels: by quad and then by lane.
 #[derive(Debug)]
 pub(crate) struct Sheet {
-    /// Four weights of 16 bits, the first in the lowest.
+    /// Four weights of 16 bits, the first in the lowest; of quads that are yet to be weighed [`Start`]s.
     weights: [[i64; ABREAST]; QUADS],
     /// The index of the first texel.
     at: [[i32; ABREAST]; QUADS],
@@ -63,13 +63,36 @@ impl Default for Sheet {
 impl Sheet {
     #[inline(always)]
     fn put<S: Simd>(&mut self, quad: usize, [left, right]: [i32x16<S>; 2], at: i32x16<S>) {
-        let (first, second) = left.interleave(right);
-        let (weights, _) = self.weights[quad].as_chunks_mut();
-        if let [low, high] = weights {
-            *low = first.bitcast::<i64x8<S>>().to_array();
-            *high = second.bitcast::<i64x8<S>>().to_array();
-        }
+        self.weigh(quad, [left, right]);
         self.at[quad] = at.to_array();
+    }
+
+    /// The weights of a quad, in the place of where it begins.
+    #[inline(always)]
+    fn weigh<S: Simd>(&mut self, quad: usize, [left, right]: [i32x16<S>; 2]) {
+        let (first, second) = left.interleave(right);
+        self.keep(quad, [first.bitcast(), second.bitcast()]);
+    }
+
+    /// Where a quad begins, in the place of its weights, and the index of its first texel.
+    #[inline(always)]
+    fn start<S: Simd>(&mut self, quad: usize, start: &Start<S>, at: i32x16<S>) {
+        self.keep(quad, [start.e.bitcast(), start.offset.bitcast()]);
+        self.at[quad] = at.to_array();
+    }
+
+    #[inline(always)]
+    fn started<S: Simd>(&self, simd: S, quad: usize) -> Start<S> {
+        let (low, high) = self.weights[quad].split_at(ABREAST / 2);
+        let [e, offset] = [i64x8::from_slice(simd, low), i64x8::from_slice(simd, high)];
+        Start { e: e.bitcast(), offset: offset.bitcast() }
+    }
+
+    #[inline(always)]
+    fn keep<S: Simd>(&mut self, quad: usize, [low, high]: [i64x8<S>; 2]) {
+        let (first, second) = self.weights[quad].split_at_mut(ABREAST / 2);
+        low.store_slice(first);
+        high.store_slice(second);
     }
 
     /// The weights of so many quads of a walk, and the index of the first texel of each.
@@ -96,14 +119,16 @@ pub(crate) fn walk_all<S: Simd>(
     let walk = mask32x16::from_bitmask(simd, wanted);
     let groups = walk.select(walks.groups, i32x16::splat(simd, 0));
     let small = wanted & !walks.small.to_bitmask() == 0;
+    let places = level.places(simd, QUAD);
     let mut gather = Gather::new(simd, level.texels.whole(), wanted, small, sheet);
     for group in 0..most(groups) {
         let mut rows = walks.rows(simd, groups, group);
         for _ in 0..most(rows.count) {
-            let (weights, at) = walks.row(simd, level, &mut rows);
-            gather.put(weights, at);
+            let (start, at) = walks.start(simd, &places, &mut rows);
+            gather.start(walks, &start, at);
         }
     }
+    gather.weigh(walks);
     for i in lanes(gather.finish(out)) {
         out[i] = walks.get(i).centre(level, t.wrap);
     }
@@ -146,16 +171,45 @@ impl<'a, S: Simd> Gather<'a, S> {
     /// A quad of each walk: the pairs of its weights, and the index of its first texel.
     #[inline(always)]
     pub(crate) fn put(&mut self, weights: [i32x16<S>; 2], at: i32x16<S>) {
-        let [left, right] = weights;
-        let both = (left + right).bitcast::<i16x32<S>>();
-        self.totals += both.pairwise_dot_product(i16x32::splat(self.simd, 1));
+        self.totals += sum(self.simd, weights);
         self.sheet.put(self.used, weights, at);
         self.used += 1;
         if self.used == QUADS {
-            self.sums.gather(self.simd, self.texels, self.wanted, self.sheet, self.used);
-            self.used = 0;
-            self.read = true;
+            self.sum();
         }
+    }
+
+    /// A quad of each walk that is yet to be weighed.
+    ///
+    /// Where a quad begins takes a root, which takes its time, and so do weights, step by step. One row after
+    /// the other, each would wait for the one and then for the other; so the beginnings of all rows are found,
+    /// which wait together, and then all the weights.
+    #[inline(always)]
+    fn start(&mut self, walks: &Walks<S>, start: &Start<S>, at: i32x16<S>) {
+        self.sheet.start(self.used, start, at);
+        self.used += 1;
+        if self.used == QUADS {
+            self.weigh(walks);
+            self.sum();
+        }
+    }
+
+    /// Weighs the quads that stand in the sheet.
+    #[inline(always)]
+    fn weigh(&mut self, walks: &Walks<S>) {
+        for quad in 0..self.used {
+            let weights = walks.weights(self.simd, &self.sheet.started(self.simd, quad));
+            self.totals += sum(self.simd, weights);
+            self.sheet.weigh(quad, weights);
+        }
+    }
+
+    /// Adds the quads that stand in the sheet, which is empty then.
+    #[inline(always)]
+    fn sum(&mut self) {
+        self.sums.gather(self.simd, self.texels, self.wanted, self.sheet, self.used);
+        self.used = 0;
+        self.read = true;
     }
 
     /// Makes the means. Returns the bits of walks of which no texel has any weight, whose means are of no
@@ -226,14 +280,14 @@ pub(crate) fn average_all<S: Simd, const C: usize, const R: usize>(
     ];
     let inside = level.reads(simd, [x, y], [x + (LANES as i32 - 1), y + (R as i32 - 1)]);
     let done = inside.to_bitmask() & wanted;
+    let places = level.places(simd, QUAD);
     let mut totals = i32x16::splat(simd, 0);
     for (r, row) in patch.weights.iter().enumerate() {
-        let at = level.indices(simd, [x, y + r as i32], QUAD);
+        let at = places.index([x, y + r as i32]);
         let mut quad = [f32x16::splat(simd, 0.0); LANES];
         quad[..C].copy_from_slice(row);
         let [left, right] = [pair(simd, quad[0], quad[1]), pair(simd, quad[2], quad[3])];
-        let both = left.bitcast::<i16x32<S>>() + right.bitcast::<i16x32<S>>();
-        totals += both.pairwise_dot_product(i16x32::splat(simd, 1));
+        totals += sum(simd, [left, right]);
         sheet.put(r, [left, right], inside.select(at, i32x16::splat(simd, 0)));
     }
     finish_small(simd, level.texels.whole(), done, sheet, R, &shares(totals), out);
@@ -276,6 +330,22 @@ struct Rows<S: Simd> {
     shift: f32,
 }
 
+/// The beginning of a quad in a row.
+#[derive(Clone, Copy)]
+struct Start<S: Simd> {
+    /// The exponent's part from the row; beyond every cut where there is no quad.
+    e: f32x16<S>,
+    /// From the middle of the ellipse in the row to the first texel.
+    offset: f32x16<S>,
+}
+
+/// The sums of the weights of quads.
+#[inline(always)]
+fn sum<S: Simd>(simd: S, [left, right]: [i32x16<S>; 2]) -> i32x16<S> {
+    let both = left.bitcast::<i16x32<S>>() + right.bitcast::<i16x32<S>>();
+    both.pairwise_dot_product(i16x32::splat(simd, 1))
+}
+
 impl<S: Simd> Walks<S> {
     /// What [`Walk::centre`] needs of one of them.
     #[cold]
@@ -310,10 +380,10 @@ impl<S: Simd> Walks<S> {
         }
     }
 
-    /// The weights of a quad in the next row of each walk, and the index of its first texel, which is of no
-    /// meaning where the weights are 0.
+    /// The beginning of a quad in the next row of each walk, and the index of its first texel, which is of no
+    /// meaning where there is none.
     #[inline(always)]
-    fn row(&self, simd: S, level: &Level, rows: &mut Rows<S>) -> ([i32x16<S>; 2], i32x16<S>) {
+    fn start(&self, simd: S, places: &Places<S>, rows: &mut Rows<S>) -> (Start<S>, i32x16<S>) {
         let dv = rows.j - self.fy;
         let e = (dv * dv) * self.row_scale;
         let half = (self.cut - e).max(f32x16::splat(simd, 0.0));
@@ -322,13 +392,19 @@ impl<S: Simd> Walks<S> {
         let before = low.floor();
         let offset = (f32x16::splat(simd, rows.shift) - half) - (low - before);
         let e = rows.count.simd_gt(0).select(e, f32x16::splat(simd, NOTHING));
-        let weights = [self.pair(simd, e, offset), self.pair(simd, e, offset + 2.0)];
         let x = before.to_int::<i32x16<S>>() + rows.x;
-        let at = level.indices(simd, [x, rows.y], QUAD);
+        let at = places.index([x, rows.y]);
         rows.j += 1.0;
         rows.y += 1;
         rows.count -= 1;
-        (weights, at)
+        (Start { e, offset }, at)
+    }
+
+    /// The weights of a quad: the pair on the left, and that on the right.
+    #[inline(always)]
+    fn weights(&self, simd: S, start: &Start<S>) -> [i32x16<S>; 2] {
+        let Start { e, offset } = *start;
+        [self.pair(simd, e, offset), self.pair(simd, e, offset + 2.0)]
     }
 
     /// The weights of two texels side by side, the first of which lies so far from the middle of its row:

@@ -81,6 +81,28 @@ pub(crate) fn texels_kept(part: [Span; 2]) -> Option<usize> {
     stride(part[0].len()).checked_mul(part[1].len().checked_add(2 * APRON)?)
 }
 
+/// What it takes to find rectangles of texels in the memory of a level, in lanes.
+#[derive(Clone, Copy)]
+pub(crate) struct Places<S: Simd> {
+    low: [i32x16<S>; 2],
+    last: [i32x16<S>; 2],
+    mask: [i32x16<S>; 2],
+    stride: i32x16<S>,
+    base: i32x16<S>,
+}
+
+impl<S: Simd> Places<S> {
+    /// The indices of the first of the texels from (x, y) on, or of texels that are the same; where they can
+    /// not be read, something of no meaning.
+    #[inline(always)]
+    pub(crate) fn index(&self, [x, y]: [i32x16<S>; 2]) -> i32x16<S> {
+        let x = x.max(self.low[0]).min(self.last[0]);
+        let y = y.max(self.low[1]).min(self.last[1]);
+        // After the masks, every sum here is an index of a texel, and fits 31 bits.
+        (y & self.mask[1]) * self.stride + (x & self.mask[0]) - self.base
+    }
+}
+
 impl Level {
     /// A level of no meaning, to be filled, in the memory of another if that is of its size.
     pub(crate) fn new<T: Stored>(
@@ -241,21 +263,19 @@ impl Level {
         x0.simd_ge(low[0]) & x1.simd_le(high[0]) & y0.simd_ge(low[1]) & y1.simd_le(high[1])
     }
 
-    /// The indices of the first of so many columns and rows of texels from (x, y) on, or of texels that are
-    /// the same; where they can not be read, something of no meaning.
+    /// Where so many columns and rows of texels begin in the memory.
     #[inline(always)]
-    pub(crate) fn indices<S: Simd>(
-        &self,
-        simd: S,
-        [x, y]: [i32x16<S>; 2],
-        [columns, rows]: [i32; 2],
-    ) -> i32x16<S> {
+    pub(crate) fn places<S: Simd>(&self, simd: S, [columns, rows]: [i32; 2]) -> Places<S> {
         let all = |v: i32| i32x16::splat(simd, v);
         let Frame { low, high, .. } = self.frame;
-        let x = x.max(all(low[0])).min(all(high[0].saturating_sub(columns - 1)));
-        let y = y.max(all(low[1])).min(all(high[1].saturating_sub(rows - 1)));
-        // After the masks, every sum here is an index of a texel, and fits 31 bits.
-        (y & self.mask[1]) * (self.stride as i32) + (x & self.mask[0]) - self.base
+        let last = [high[0].saturating_sub(columns - 1), high[1].saturating_sub(rows - 1)];
+        Places {
+            low: low.map(all),
+            last: last.map(all),
+            mask: self.mask.map(all),
+            stride: all(self.stride as i32),
+            base: all(self.base),
+        }
     }
 
     /// The columns of row `y` that are kept, if the row is and its texels are such.

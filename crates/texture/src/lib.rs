@@ -65,7 +65,8 @@
 //! # Cost
 //!
 //! - Memory: 8 bytes a texel, four numbers of 16 bits in steps of 1/16,320 (64 to a code of eight bits),
-//!   and a third more for the pyramid. Rounding to a step is noise at −95 dB. Images in more than eight
+//!   and a third more for the pyramid. Rounding to a step is noise at −95 dB. Level 0 of an opaque image of
+//!   bytes that is averaged as it is encoded takes 4, with the same results. Images in more than eight
 //!   bits and in floats are stored as floats, 16 bytes a texel, as bright as they are ([`Storage`]).
 //! - Only what is asked for is made and kept: [`Levels`] says which levels, [`TextureOptions::window`]
 //!   which part of the image, [`TextureOptions::outlines`] which parts of the finest levels, and

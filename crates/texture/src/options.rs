@@ -64,7 +64,10 @@ pub enum Storage {
     Auto,
     /// Numbers of 16 bits in steps of 1/16,320, sixty-four to a code of eight bits: 8 bytes a texel.
     /// Rounding to a step is noise at −95 dB. Images are cut to 0…1 as they are stored, and samples lie
-    /// in 0…alpha. All the fast loops are for this.
+    /// in 0…alpha. All the fast loops are for this. Where all texels of level 0 are codes, it keeps these:
+    /// 4 bytes a texel, with the same results. That is so of images of bytes that are opaque or premultiplied,
+    /// in the space that they come in, with nothing beyond them that is no code; of rows that come one by one
+    /// it must be known beforehand, from a format without alpha.
     Compact,
     /// Floats: 16 bytes a texel. Nothing is rounded and colours are not cut, below 0 and above alpha
     /// neither in the texture nor in its samples, so a sharp pyramid's few hundredths of overshoot show

@@ -254,7 +254,7 @@ impl<S: Simd, P: Points> Batch<'_, S, P> {
         let (y0, fy) = place(self.spots.v, sv, P::SHIFT);
         let inside = level.reads(simd, [x0, y0], [x0 + (P::SIDE - 1), y0 + (P::SIDE - 1)]);
         let here = inside & mask32x16::from_bitmask(simd, wanted);
-        let at = level.indices(simd, [x0, y0], [P::SIDE; 2]);
+        let at = level.places(simd, [P::SIDE; 2]).index([x0, y0]);
         let at = here.select(at, i32x16::splat(simd, 0)).to_array();
         let rest = [fx.to_array(), fy.to_array()];
         let mut colors = match &level.texels {

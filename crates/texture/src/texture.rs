@@ -23,8 +23,8 @@ use scumble_pixel::{Image, ImageView, Premul, WorkingSpace};
 
 /// An image made ready to be filtered: its pyramid, premultiplied, in the working space.
 ///
-/// Texels take 8 bytes each (four numbers of 16 bits, in steps of 1/16,320), or 16 as floats
-/// ([`Storage`](crate::Storage)); each level has eight more on every side, for what lies beyond its edge,
+/// Texels take 8 bytes each (four numbers of 16 bits, in steps of 1/16,320), 4 in a level 0 of opaque bytes, or
+/// 16 as floats ([`Storage`](crate::Storage)); each level has eight more on every side, for what lies beyond its edge,
 /// and all levels together take a third more than the base: [`Texture::memory_for`] says it before
 /// anything is allocated.
 #[derive(Debug, Clone)]
@@ -217,8 +217,9 @@ impl Texture {
         self.levels.iter().map(|level| level.texels.bytes()).sum()
     }
 
-    /// Bytes of texels that a texture of this size will hold; `None` if that overflows or a
-    /// side is above 2²⁹. With [`Storage::Auto`](crate::Storage::Auto) those of an image of bytes.
+    /// Bytes of texels that a texture of this size will hold at most; `None` if that overflows or a
+    /// side is above 2²⁹. With [`Storage::Auto`](crate::Storage::Auto) those of an image of bytes. It will hold
+    /// fewer only where level 0 is kept in codes ([`Storage::Compact`](crate::Storage::Compact)).
     #[must_use]
     pub fn memory_for(width: usize, height: usize, options: &TextureOptions) -> Option<usize> {
         if width.max(height) > LARGEST {

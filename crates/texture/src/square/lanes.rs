@@ -123,6 +123,7 @@ impl<S: Simd> Batch<'_, S> {
         let simd = self.simd;
         let lane = mask32x16::from_bitmask(simd, wanted);
         let zero = i32x16::splat(simd, 0);
+        let places = level.places(simd, QUAD);
         let mut gather = Gather::new(simd, level.texels.whole(), wanted, false, self.sheet);
         let [_, low] = shape.low;
         let count = (shape.high[1] - low).to_int::<i32x16<S>>() + 1;
@@ -139,7 +140,7 @@ impl<S: Simd> Batch<'_, S> {
                     #[inline(always)]
                     |pair| listed.select(pair, zero),
                 );
-                gather.put(pairs, level.indices(simd, [first + shift, y], QUAD));
+                gather.put(pairs, places.index([first + shift, y]));
             }
         }
         for i in lanes(gather.finish(out)) {
