@@ -15,6 +15,9 @@ const MAX_ROUND_POINTS: usize = 1 << 22;
 /// The part of the tolerance that does not show in any way: points so near are one.
 const INVISIBLE: f64 = 1.0 / 64.0;
 
+/// Points of joins and caps for which there is room at once.
+const ROOM: usize = 16;
+
 /// Draws the outlines of chains.
 ///
 /// A chain's outline runs along its left side and back along its right side. At a join the outer
@@ -56,8 +59,12 @@ impl<'a> Outliner<'a> {
         let (Some(first), Some(last)) = (chain.segments.first(), chain.segments.last()) else {
             return;
         };
-        self.left.clear();
-        self.right.clear();
+        // Two points a segment, and what joins and caps add, more or less.
+        let room = 2 * chain.segments.len() + ROOM;
+        for side in [&mut self.left, &mut self.right] {
+            side.clear();
+            side.reserve(room);
+        }
         self.inner.iter_mut().for_each(InnerJoins::clear);
         for pair in chain.segments.windows(2) {
             self.side(&pair[0]);
@@ -146,16 +153,16 @@ impl<'a> Outliner<'a> {
         let join = if after.smooth { Join::Round } else { self.style.join };
         let sign = if turns_right { self.radius } else { -self.radius };
         let at = |n: DVec2| corner + n * sign;
-        let mut outer = Vec::new();
+        let (mut arc, mut tip) = (Vec::new(), None);
         match join {
             Join::Bevel => {}
-            Join::Round => self.arc(n0, n1, turns_right, 0, &mut |n| outer.push(at(n))),
+            Join::Round => self.arc(n0, n1, turns_right, 0, &mut |n| arc.push(at(n))),
             Join::Miter => {
                 // The tip is at (n0 + n1)/(1 + cos), √(2/(1 + cos)) half-widths away.
                 let one_and_cosine = 1.0 + n0.dot(n1);
                 let limit = self.style.miter_limit;
                 if one_and_cosine * limit * limit >= 2.0 {
-                    outer.push(at((n0 + n1) / one_and_cosine));
+                    tip = Some(at((n0 + n1) / one_and_cosine));
                 }
             }
         }
@@ -165,7 +172,7 @@ impl<'a> Outliner<'a> {
         } else {
             (&mut self.right, &mut self.left, left)
         };
-        outer_side.extend(outer);
+        outer_side.extend(arc.into_iter().chain(tip));
         // Where both segments reach beyond the wedge that a shortcut cuts off, they overlap in
         // all of it, and the outline still winds around it once.
         let shortcut = (n1 - n0).length() * self.radius;
