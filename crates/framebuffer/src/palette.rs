@@ -44,13 +44,17 @@ impl Palette {
     /// The colour of a key.
     #[inline(always)]
     pub(crate) fn color(&self, key: u32) -> Premul {
-        *self.color_at(key)
+        self.colors[(key as usize).min(self.colors.len() - 1)]
     }
 
-    /// Where the colour of a key is.
-    #[inline(always)]
-    pub(crate) fn color_at(&self, key: u32) -> &Premul {
-        &self.colors[(key as usize).min(self.colors.len() - 1)]
+    /// The colours by key, and last what stands for all keys beyond.
+    pub(crate) fn colors(&self) -> &[Premul] {
+        &self.colors
+    }
+
+    /// As many encodings.
+    pub(crate) fn codes(&self) -> &[[u8; 4]] {
+        &self.codes
     }
 
     /// The encoding of a key.

@@ -1,7 +1,6 @@
 //! Colours over stretches of uniform pixels.
 
-use crate::Palette;
-use crate::inlay::SUM;
+use crate::inlay::Colors;
 use crate::level::Best;
 use scumble_pixel::Premul;
 
@@ -43,15 +42,15 @@ pub(crate) fn blend_parts(best: Best, below: &mut [Premul], parts: &[f32], color
     by_best!(best, below.len(), blend_parts_by(below, parts, color))
 }
 
-/// Parts of one colour over as many pixels of an [`Inlay`](crate::Inlay): keys and sums.
+/// Parts of one colour over as many pixels of an [`Inlay`](crate::Inlay), with room for as many sums.
 pub(crate) fn inlay_parts(
     best: Best,
-    (keys, sums): (&mut [u32], &mut [Premul]),
+    keys: &mut [u32],
+    colors: &mut Colors,
     parts: &[f32],
     color: Premul,
-    palette: &Palette,
 ) {
-    by_best!(best, keys.len(), inlay_parts_by((keys, sums), parts, color, palette))
+    by_best!(best, keys.len(), inlay_parts_by(keys, colors, parts, color))
 }
 
 /// Writes a key all over a run. Runs are short: two writes that overlap beat a loop over what is
@@ -111,22 +110,16 @@ fn blend_parts_by(below: &mut [Premul], parts: &[f32], color: Premul) {
 }
 
 #[inline(always)]
-fn inlay_parts_by(
-    (keys, sums): (&mut [u32], &mut [Premul]),
-    parts: &[f32],
-    color: Premul,
-    palette: &Palette,
-) {
-    for ((key, pixel), &part) in keys.iter_mut().zip(sums).zip(parts) {
-        // As in `blend_parts_by`, over what is there: a choice of where to look, and not a branch.
-        let known = palette.color_at(*key);
-        let (above, under) = (color.0, (if *key == SUM { &*pixel } else { known }).0);
+fn inlay_parts_by(keys: &mut [u32], colors: &mut Colors, parts: &[f32], color: Premul) {
+    for (key, &part) in keys.iter_mut().zip(parts) {
+        // As in `blend_parts_by`.
+        let (above, under) = (color.0, colors.list[*key as usize].0);
         let keep = 1.0 - above[3] * part;
         let mut sum = [0.0; 4];
         for i in 0..4 {
             sum[i] = above[i] * part + keep * under[i];
         }
-        (*key, pixel.0) = (SUM, sum);
+        *key = colors.set(*key, Premul(sum));
     }
 }
 

@@ -405,4 +405,26 @@ fn strokes_have_the_right_area() {
         let b = bounds(join);
         assert!((b.x0 + 1.0).abs() < 1e-9 && (b.y1 - 11.0).abs() < 1e-9, "{b:?}");
     }
+    // The inner side turns where its edges cross: nothing is counted twice.
+    assert!((stroked(&corner, &butt) - (144.0 - 64.0)).abs() < 1e-9);
+}
+
+#[test]
+fn inner_sides_of_joins_do_not_cross_themselves() {
+    let points = |path: &Path, width: f64| {
+        let style = StrokeStyle { width, ..Default::default() };
+        path.stroke(&style, 0.01).flatten(&Homography::IDENTITY, 0.01).points.len()
+    };
+    let bend = Path::polyline([v(0.0, 0.0), v(10.0, 0.0), v(4.0, 8.0)], false);
+    // Both ends, the crossing, and the miter between the ends of the outer sides.
+    assert_eq!(points(&bend, 2.0), 4 + 1 + 3);
+    // Where the stroke is wider than the segments are long, the sides end beyond each other.
+    assert_eq!(points(&bend, 30.0), 4 + 3 + 3);
+    // Where curves go on into each other, no side goes to the middle and back.
+    let mut wave = Path::new();
+    wave.move_to(v(0.0, 0.0))
+        .quad_to(v(10.0, 10.0), v(20.0, 0.0))
+        .quad_to(v(30.0, -10.0), v(40.0, 0.0));
+    let outline = wave.stroke(&StrokeStyle::default(), 0.01).flatten(&Homography::IDENTITY, 0.01);
+    assert!(outline.points.iter().all(|p| p.distance(v(20.0, 0.0)) > 0.49));
 }

@@ -3,7 +3,7 @@
 use crate::paint::Paint;
 use crate::tile::Job;
 use scumble_coverage::{AreaSink, SampleMask, SamplePattern, Sink};
-use scumble_framebuffer::{Inlay, Palette, Tile, Visibility};
+use scumble_framebuffer::{Inlay, Tile, Visibility};
 use scumble_geometry::{DVec2, IntRect};
 use scumble_pixel::Premul;
 
@@ -58,7 +58,6 @@ impl Sink for Stamp<'_> {
 /// Lays one colour over what a primitive covers.
 pub(crate) struct Coat<'a> {
     pub(crate) tile: &'a mut Inlay,
-    pub(crate) palette: &'a Palette,
     /// The tile's top left pixel.
     pub(crate) origin: (i32, i32),
     /// What stands for the primitive.
@@ -68,7 +67,7 @@ pub(crate) struct Coat<'a> {
 impl AreaSink for Coat<'_> {
     fn block(&mut self, rect: IntRect) {
         let (x, y) = local(self.origin, rect.x0, rect.y0);
-        self.tile.fill(x, y, rect.width(), rect.height(), self.key, self.palette);
+        self.tile.fill(x, y, rect.width(), rect.height(), self.key);
     }
 
     fn run(&mut self, y: i32, x0: i32, x1: i32) {
@@ -77,12 +76,12 @@ impl AreaSink for Coat<'_> {
 
     fn span(&mut self, y: i32, x0: i32, x1: i32, area: f32) {
         let place = local(self.origin, x0, y);
-        self.tile.blend_area(place, x1.abs_diff(x0), area, self.key, self.palette);
+        self.tile.blend_area(place, x1.abs_diff(x0), area, self.key);
     }
 
     fn row(&mut self, y: i32, x0: i32, areas: &[f32]) {
         let (x, y) = local(self.origin, x0, y);
-        self.tile.blend_areas(x, y, areas, self.key, self.palette);
+        self.tile.blend_areas(x, y, areas, self.key);
     }
 
     fn pixel(&mut self, x: i32, y: i32, area: f32) {

@@ -111,7 +111,7 @@ impl Job<'_> {
         for (y, row) in (0..).zip(rows) {
             match effect {
                 Effect::Flat => seen.encode_row(y, palette, row),
-                Effect::Inlays => inlay.encode_row(y, palette, row),
+                Effect::Inlays => inlay.encode_row(y, row),
                 Effect::Ramps => seen.encode_gradients(y, &gradients, space, row),
                 Effect::Hides => {
                     let place = |x: usize| centre(rect.x0 + x as i32, rect.y0 + y as i32);
@@ -227,7 +227,9 @@ impl Replay<'_> {
         let samples = self.job.settings.samples();
         match self.effect {
             Effect::Blends => {}
-            Effect::Inlays => return self.work.inlay.reset(width, height, BACKGROUND),
+            Effect::Inlays => {
+                return self.work.inlay.reset(width, height, BACKGROUND, self.palette);
+            }
             _ => return self.work.seen.reset(width, height, samples, BACKGROUND),
         }
         if self.work.stack.len() <= depth {
@@ -315,8 +317,7 @@ impl Replay<'_> {
         let key = BACKGROUND + 1 + index;
         if self.effect == Effect::Inlays {
             let Workspace { scratch, inlay, .. } = &mut *self.work;
-            let mut coat = Coat { tile: inlay, palette: self.palette, origin, key };
-            return lay((&draw.form, strip), clip, scratch, &mut coat);
+            return lay((&draw.form, strip), clip, scratch, &mut Coat { tile: inlay, origin, key });
         }
         if self.effect != Effect::Blends {
             let Workspace { scratch, seen, .. } = &mut *self.work;

@@ -49,13 +49,13 @@ impl Source {
     }
 
     /// Adds it to the sums of the rows that it meets, of which the first is row `y0`. `place` is its
-    /// own among the gathered edges.
+    /// own among the gathered edges. `all_proven` says that all of the rows are.
     #[inline(always)]
     fn add<S: Simd>(
         &self,
         simd: S,
         place: u32,
-        (y0, rows): (i32, &mut [RowSums]),
+        (y0, rows, all_proven): (i32, &mut [RowSums], bool),
         eights: &mut Eights,
     ) {
         let top = self.top.max(y0 * 256);
@@ -72,7 +72,7 @@ impl Source {
             let to = self.slope.along(end);
             let Slope { sign, half_rise, .. } = self.slope;
             let reach = Reach { sign, from, to, height: end - start, half_rise };
-            if rows[row].proven {
+            if all_proven || rows[row].proven {
                 eights.push(simd, row, (&reach, self.winding), rows);
             } else {
                 let heights = (at - row_top, next - row_top);
@@ -103,11 +103,14 @@ pub(super) struct LeftSide {
     changes: Vec<i32>,
     /// One bit for each height at which something was added.
     marked: [u64; ROWS * 4 + 1],
+    /// Whether nothing was: most clips have all of their outline.
+    is_empty: bool,
 }
 
 impl Default for LeftSide {
     fn default() -> Self {
-        Self { changes: vec![0; Self::HEIGHT as usize + 1], marked: [0; ROWS * 4 + 1] }
+        let changes = vec![0; Self::HEIGHT as usize + 1];
+        Self { changes, marked: [0; ROWS * 4 + 1], is_empty: true }
     }
 }
 
@@ -128,15 +131,17 @@ impl Gathered {
         let (left, right) = (x0 * 256, x1 * 256 - 1);
         let (edges, steps) = polygon.bands.between(top, (left, right));
         let all_proven = rows.iter().all(|row| row.proven);
+        // Then nothing needs to be asked of each edge.
+        let is_whole = polygon.bounds.x0 >= x0 && polygon.bounds.x1 <= x1;
         for e in edges {
             if e.y0 >= bottom || e.y1 <= top {
                 continue;
             }
-            if e.right() < left {
+            if !is_whole && e.right() < left {
                 self.left.add_edge(e, top, bottom);
-            } else if e.left() <= right {
-                let source = Source::from(*e);
-                source.add(simd, self.edges.len() as u32, (y0, rows), &mut self.eights);
+            } else if is_whole || e.left() <= right {
+                let (source, place) = (Source::from(*e), self.edges.len() as u32);
+                source.add(simd, place, (y0, rows, all_proven), &mut self.eights);
                 if !all_proven {
                     self.edges.push(source);
                 }
@@ -151,6 +156,9 @@ impl Gathered {
     /// Adds the changes of the winding number in a row, counted from the first.
     #[inline(always)]
     pub(super) fn left_side(&self, row: usize, steps: &mut Steps) {
+        if self.left.is_empty {
+            return;
+        }
         let Range { start, end } = row * 4..row * 4 + 4;
         for (word, &bits) in (start..end).zip(&self.left.marked[start..end]) {
             let mut bits = bits;
@@ -170,6 +178,7 @@ impl LeftSide {
     #[inline(always)]
     pub(super) fn add(&mut self, height: i32, change: i32) {
         let height = height as usize;
+        self.is_empty = false;
         self.changes[height] += change;
         self.marked[height / 64] |= 1 << (height % 64);
     }
@@ -200,6 +209,9 @@ impl LeftSide {
     }
 
     pub(super) fn clear(&mut self) {
+        if core::mem::replace(&mut self.is_empty, true) {
+            return;
+        }
         for (word, bits) in self.marked.iter_mut().enumerate() {
             while *bits != 0 {
                 self.changes[word * 64 + bits.trailing_zeros() as usize] = 0;

@@ -76,6 +76,9 @@ pub(crate) struct Polygon {
     rule: FillRule,
 }
 
+/// Few outlines have more: there is room for as many at once.
+const FEW_CHAINS: usize = 16;
+
 /// Collects contours point by point.
 #[derive(Debug, Default)]
 pub(crate) struct PolygonBuilder {
@@ -178,7 +181,7 @@ fn is_flat(points: &[FixedPoint]) -> bool {
 
 impl Polygon {
     pub(crate) fn builder() -> PolygonBuilder {
-        PolygonBuilder::default()
+        PolygonBuilder { chains: Vec::with_capacity(FEW_CHAINS), ..PolygonBuilder::default() }
     }
 
     pub(crate) fn bounds(&self) -> IntRect {

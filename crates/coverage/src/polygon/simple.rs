@@ -30,6 +30,9 @@ const PATIENCE: usize = 16;
 /// Small outlines may have this many looks more.
 const SLACK: usize = 256;
 
+/// Chains beside each other for which there is room at once.
+const ROOM: usize = 32;
+
 /// A chain on its way down.
 #[derive(Debug, Clone, Copy)]
 struct Walk {
@@ -95,7 +98,7 @@ pub(super) fn unproven_rows(edges: &[PolygonEdge], chains: &[Chain]) -> Vec<Rang
     let mut unproven = Vec::new();
     let mut waiting: Vec<Walk> = chains.iter().map(|&chain| Walk::new(edges, chain)).collect();
     waiting.sort_unstable_by_key(|walk| Reverse(walk.top));
-    let mut live: Vec<Walk> = Vec::new();
+    let mut live: Vec<Walk> = Vec::with_capacity(chains.len().min(ROOM));
     let mut patience = PATIENCE * edges.len() + SLACK;
     let mut y = i32::MIN;
     // The row in which the last strip ends, and the winding number there.

@@ -20,6 +20,9 @@ use alloc::vec::Vec;
 use density::{Density, END_STEP, count};
 use span::{Cubic, Span, Vertex};
 
+/// There is room for as many points at once: to grow step by step takes longer.
+const ROOM: usize = 64;
+
 /// Finds chords for curves, one after the other in the same memory.
 pub(crate) struct Chords<F> {
     tolerance: f64,
@@ -113,9 +116,12 @@ impl<F: Fn(DVec2, DVec2) -> bool> Chords<F> {
     fn place(&mut self, cubic: &Cubic, density: &Density, count: u32) -> bool {
         // One step for all of them, then the next: so a processor works on several at once, where a
         // chord would have to wait for the one before.
+        let room = ROOM.max(count as usize + 2);
         self.places.clear();
+        self.places.reserve(room);
         density.places(count, &mut self.places);
         self.vertices.clear();
+        self.vertices.reserve(room);
         self.vertices.push(cubic.start());
         let vertex = |t: &[f64]| cubic.vertex(t[1], (t[1] - t[0]) * (t[2] - t[1]), self.tolerance);
         self.vertices.extend(self.places.windows(3).map(vertex));

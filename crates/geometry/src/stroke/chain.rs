@@ -5,6 +5,9 @@ use crate::path::Cursor;
 use crate::{DVec2, Path, PathElement};
 use alloc::vec::Vec;
 
+/// Segments for which there is room at once: to grow step by step takes longer.
+const ROOM: usize = 32;
+
 /// A straight piece of a contour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Segment {
@@ -46,7 +49,7 @@ impl Chain {
         let mut builder = Builder {
             chords: Chords::new(bends.tolerance, bends.radius, fits),
             points: Vec::new(),
-            chain: Self { segments: Vec::new(), closed: false },
+            chain: Self { segments: Vec::with_capacity(ROOM), closed: false },
             start: None,
             draw,
             count: 0,

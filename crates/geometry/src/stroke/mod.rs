@@ -1,5 +1,6 @@
 mod chain;
 mod dash;
+mod inner;
 mod outline;
 
 use crate::flatten::project;

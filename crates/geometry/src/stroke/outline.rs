@@ -1,4 +1,5 @@
 use super::chain::{Chain, Segment};
+use super::inner::InnerJoins;
 use super::{Bends, Cap, Join, StrokeStyle};
 use crate::math::sqrt;
 use crate::{Contours, DVec2};
@@ -11,11 +12,17 @@ const MAX_ARC_DEPTH: u32 = 10;
 /// memory on hostile input.
 const MAX_ROUND_POINTS: usize = 1 << 22;
 
+/// The part of the tolerance that does not show in any way: points so near are one.
+const INVISIBLE: f64 = 1.0 / 64.0;
+
+/// Points of joins and caps for which there is room at once.
+const ROOM: usize = 16;
+
 /// Draws the outlines of chains.
 ///
 /// A chain's outline runs along its left side and back along its right side. At a join the outer
 /// side gets the join's shape and the inner one goes through the corner itself (or past it, where
-/// that makes no difference); so the outline is, as a sum of closed curves, one quadrilateral per
+/// that makes no difference, [`InnerJoins`]); so the outline is, as a sum of closed curves, one quadrilateral per
 /// segment and one wedge per join, all clockwise to the eye, and winds around every point of the
 /// stroke at least once.
 pub(super) struct Outliner<'a> {
@@ -28,6 +35,8 @@ pub(super) struct Outliner<'a> {
     bent: bool,
     left: Vec<DVec2>,
     right: Vec<DVec2>,
+    /// The joins of which the inner side is the left one, and the others.
+    inner: [InnerJoins; 2],
     out: &'a mut Contours,
 }
 
@@ -41,16 +50,22 @@ impl<'a> Outliner<'a> {
         // Sagitta of a chord: radius·(1 − cos(θ/2)); and cos θ = 2·cos²(θ/2) − 1.
         let half_cosine = (1.0 - bends.tolerance / bends.radius).clamp(0.0, 1.0);
         let least_cosine = 2.0 * half_cosine * half_cosine - 1.0;
-        let (left, right) = (Vec::new(), Vec::new());
-        Self { style, radius: bends.radius, least_cosine, bends, bent: false, left, right, out }
+        let (radius, bent) = (bends.radius, false);
+        let (left, right, inner) = (Vec::new(), Vec::new(), Default::default());
+        Self { style, radius, least_cosine, bends, bent, left, right, inner, out }
     }
 
     pub(super) fn draw(&mut self, chain: &Chain) {
         let (Some(first), Some(last)) = (chain.segments.first(), chain.segments.last()) else {
             return;
         };
-        self.left.clear();
-        self.right.clear();
+        // Two points a segment, and what joins and caps add, more or less.
+        let room = 2 * chain.segments.len() + ROOM;
+        for side in [&mut self.left, &mut self.right] {
+            side.clear();
+            side.reserve(room);
+        }
+        self.inner.iter_mut().for_each(InnerJoins::clear);
         for pair in chain.segments.windows(2) {
             self.side(&pair[0]);
             self.bent = self.bend(&pair[0], &pair[1]);
@@ -62,6 +77,7 @@ impl<'a> Outliner<'a> {
         self.bent = false;
         if chain.closed {
             self.join(last, first);
+            self.cut();
             contour(self.out, |out| out.append(&mut self.left));
             return contour(self.out, |out| out.extend(self.right.iter().rev()));
         }
@@ -69,6 +85,7 @@ impl<'a> Outliner<'a> {
         if is_dot && self.style.cap == Cap::Butt {
             return;
         }
+        self.cut();
         // The caps' points after the sides that they follow: all the way around.
         let mut side = core::mem::take(&mut self.left);
         self.cap(last.to, last.direction, &mut side);
@@ -81,6 +98,14 @@ impl<'a> Outliner<'a> {
             out.append(&mut self.left);
             out.append(&mut self.right);
         });
+    }
+
+    /// Cuts the inner joins of both sides.
+    fn cut(&mut self) {
+        let tolerance = self.bends.tolerance * INVISIBLE;
+        for (joins, side) in self.inner.iter().zip([&mut self.left, &mut self.right]) {
+            joins.cut(side, tolerance);
+        }
     }
 
     /// The two sides of a segment.
@@ -128,32 +153,32 @@ impl<'a> Outliner<'a> {
         let join = if after.smooth { Join::Round } else { self.style.join };
         let sign = if turns_right { self.radius } else { -self.radius };
         let at = |n: DVec2| corner + n * sign;
-        let mut outer = Vec::new();
+        let (mut arc, mut tip) = (Vec::new(), None);
         match join {
             Join::Bevel => {}
-            Join::Round => self.arc(n0, n1, turns_right, 0, &mut |n| outer.push(at(n))),
+            Join::Round => self.arc(n0, n1, turns_right, 0, &mut |n| arc.push(at(n))),
             Join::Miter => {
                 // The tip is at (n0 + n1)/(1 + cos), √(2/(1 + cos)) half-widths away.
                 let one_and_cosine = 1.0 + n0.dot(n1);
                 let limit = self.style.miter_limit;
                 if one_and_cosine * limit * limit >= 2.0 {
-                    outer.push(at((n0 + n1) / one_and_cosine));
+                    tip = Some(at((n0 + n1) / one_and_cosine));
                 }
             }
         }
-        let (outer_side, inner_side) = if turns_right {
-            (&mut self.left, &mut self.right)
+        let [left, right] = &mut self.inner;
+        let (outer_side, inner_side, joins) = if turns_right {
+            (&mut self.left, &mut self.right, right)
         } else {
-            (&mut self.right, &mut self.left)
+            (&mut self.right, &mut self.left, left)
         };
-        outer_side.extend(outer);
+        outer_side.extend(arc.into_iter().chain(tip));
         // Where both segments reach beyond the wedge that a shortcut cuts off, they overlap in
         // all of it, and the outline still winds around it once.
         let shortcut = (n1 - n0).length() * self.radius;
         let is_wide = n0.dot(n1) >= 0.0;
-        if !(is_wide && before.length() >= shortcut && after.length() >= shortcut) {
-            inner_side.push(corner);
-        }
+        let is_covered = is_wide && before.length() >= shortcut && after.length() >= shortcut;
+        joins.push(inner_side, (!is_covered).then_some(corner));
     }
 
     /// The cap at an end that looks in the given direction, from the left of it to its right.
