@@ -34,7 +34,7 @@
 //! | bilinear, two levels (trilinear) | 24 / 29 / 29 | 5 |
 //! | [`Sampler::CLASSIC`]: the method of 2009, for comparison | 26 / 31 / 29 | |
 //! | [`PixelFilter::Probes`], as hardware does it but along the true axis | 40 / 33 / 29 | |
-//! | [`Sampler::FAST`]: previews, video | 45 / 40 / 30 | 36 |
+//! | [`Sampler::FAST`]: previews, video | 45 / 40 / 41 | 36 |
 //! | [`Sampler::DEFAULT`]: everything | 48 / 40 / 49 | 63 |
 //! | [`Sampler::HIGH`]: print, masters | 48 / 51 / 49 | 64 |
 //! | [`Sampler::REFERENCE`]: truth for tests | 46 / 74 / 81 | 150 |
@@ -45,7 +45,7 @@
 //! them. A test holds the presets to these figures. Over the near half of the
 //! ground plane a pixel sees less than a texel: all presets integrate the bilinear surface there
 //! ([`Magnify::Taps`]), which is worth 6 to 17 dB over an ellipse. A preset is
-//! as good as its worst scale, just where the ellipse falls on a level's boundary: on text, 31, 33, 42
+//! as good as its worst scale, just where the ellipse falls on a level's boundary: on text, 33, 33, 42
 //! and 66 dB.
 //!
 //! # Beside the presets
