@@ -391,14 +391,29 @@ impl<P: Channels, A: Alpha> Texels<'_, P, A> {
     #[must_use]
     pub fn is_opaque(&self) -> bool {
         let one = |c: P::Channel| if self.format.halves { half(c.code()) } else { c.value() };
-        let opaque = |p: &P| match P::Channel::CODES {
-            256 => p.alpha().code() == 255,
-            _ => p.spread(|_| 0.0, one)[3] >= 1.0,
+        let opaque = |p: &P| p.spread(|_| 0.0, one)[3] >= 1.0;
+        let all = |row: &[P]| match P::Channel::bytes(P::flat(row)) {
+            [] => row.iter().all(opaque),
+            bytes => every_alpha_is_full(bytes, size_of::<P>()),
         };
-        // Without a branch for each: so many at a time.
-        let all = |pixels: &[P]| pixels.iter().fold(true, |all, p| all & opaque(p));
-        !P::ALPHA || self.view.rows().all(|row| row.chunks(256).all(all))
+        !P::ALPHA || self.view.rows().all(all)
     }
+}
+
+/// Whether the last byte of every pixel of two or four is 255.
+fn every_alpha_is_full(bytes: &[u8], pixel: usize) -> bool {
+    let mut all = [255; 16];
+    let (blocks, rest) = bytes.as_chunks::<16>();
+    // What is set in all of them: a block at a time, and without a branch.
+    for block in blocks {
+        for (all, byte) in all.iter_mut().zip(block) {
+            *all &= byte;
+        }
+    }
+    for (all, byte) in all.iter_mut().zip(rest) {
+        *all &= byte;
+    }
+    all.chunks_exact(pixel).all(|pixel| pixel.last() == Some(&255))
 }
 
 impl<P: Channels<Channel = u16>, A: Alpha> Texels<'_, P, A> {

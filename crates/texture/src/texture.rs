@@ -97,7 +97,8 @@ impl Texture {
         let levels = if options.storage.is_float(texels.format.is_of_bytes()) {
             pyramid::image::<[f32; 4], _, _>(texels.view, &decoder, options, false, old)?
         } else {
-            let coded = decoder.has_codes(|| texels.is_opaque());
+            let base = plan::kept_levels(size, options.levels).start == 0;
+            let coded = base && decoder.has_codes(|| texels.is_opaque());
             pyramid::image::<Texel, _, _>(texels.view, &decoder, options, coded, old)?
         };
         Self::over(levels, size, options, texels.format.is_bounded())

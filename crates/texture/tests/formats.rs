@@ -140,6 +140,30 @@ fn foreign_memory_with_a_stride_is_read_in_place() {
     assert_eq!(error.unwrap_err(), TextureError::Empty);
 }
 
+/// Images of these pixels, of every width and with one pixel that is not opaque anywhere or none.
+fn sees_every_alpha<P: Channels>(opaque: P, clear: P) {
+    for width in 1..40 {
+        let mut pixels = vec![opaque; 2 * width];
+        let is_opaque = |pixels: &[P]| {
+            Texels::straight(ImageView::new(width, 2, width, pixels).unwrap()).is_opaque()
+        };
+        assert!(is_opaque(&pixels));
+        for i in 0..pixels.len() {
+            pixels[i] = clear;
+            assert!(!is_opaque(&pixels), "{i} of {width}");
+            pixels[i] = opaque;
+        }
+    }
+}
+
+#[test]
+fn one_pixel_that_is_not_opaque_is_found() {
+    sees_every_alpha([7u8, 0, 255, 255], [255, 255, 255, 254]);
+    sees_every_alpha([0u8, 255], [255, 127]);
+    sees_every_alpha([0u16, 7, 9, 65535], [65535, 65535, 65535, 65534]);
+    sees_every_alpha([9.0, 1.0], [1.0, 0.999]);
+}
+
 #[test]
 fn a_part_of_a_pyramid_gives_what_the_whole_gives_there() {
     for (width, height) in [(256, 256), (301, 200)] {
