@@ -1,6 +1,8 @@
 //! Images in the formats that others keep them in.
 
+use crate::TextureOptions;
 use crate::decode::half;
+use crate::pyramid::plan;
 use core::marker::PhantomData;
 use scumble_pixel::ImageView;
 
@@ -385,6 +387,13 @@ impl<P: Channels, A: Alpha> Texels<'_, P, A> {
     #[must_use]
     pub fn size(&self) -> [usize; 2] {
         [self.view.width(), self.view.height()]
+    }
+
+    /// What of it a texture keeps as its level 0.
+    pub(crate) fn part(&self, options: &TextureOptions) -> Self {
+        let [columns, rows] = plan::kept_part(self.size(), 0, options);
+        let view = self.view.crop(columns.start, rows.start, columns.len(), rows.len());
+        Self { view, ..*self }
     }
 
     /// Whether every pixel is opaque.

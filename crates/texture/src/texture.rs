@@ -98,7 +98,7 @@ impl Texture {
             pyramid::image::<[f32; 4], _, _>(texels.view, &decoder, options, false, old)?
         } else {
             let base = plan::kept_levels(size, options.levels).start == 0;
-            let coded = base && decoder.has_codes(|| texels.is_opaque());
+            let coded = base && decoder.has_codes(|| texels.part(options).is_opaque());
             pyramid::image::<Texel, _, _>(texels.view, &decoder, options, coded, old)?
         };
         Self::over(levels, size, options, texels.format.is_bounded())

@@ -10,7 +10,7 @@ mod common;
 
 use common::{Random, noise};
 use proptest::prelude::*;
-use scumble_geometry::Matrix2;
+use scumble_geometry::{IntRect, Matrix2};
 use scumble_pixel::{Image, ImageView, WorkingSpace, srgb};
 use scumble_texture::{
     Alpha, Channels, Footprint, Levels, Sampler, Storage, Texels, Texture, TextureError,
@@ -162,6 +162,24 @@ fn one_pixel_that_is_not_opaque_is_found() {
     sees_every_alpha([0u8, 255], [255, 127]);
     sees_every_alpha([0u16, 7, 9, 65535], [65535, 65535, 65535, 65534]);
     sees_every_alpha([9.0, 1.0], [1.0, 0.999]);
+}
+
+/// Only what is kept of level 0 has to be opaque for it to be kept in bytes.
+#[test]
+fn pixels_beyond_the_window_do_not_matter() {
+    let mut image = Image::filled(64, 64, [1, 2, 3, 255]).unwrap();
+    image.row_mut(0)[63] = [1, 2, 3, 0];
+    let memory = |window| {
+        let options = TextureOptions { window, levels: Levels::BaseOnly, ..Default::default() };
+        let texture = Texture::new(image.view(), &options).unwrap();
+        (texture.memory(), Texture::memory_for(64, 64, &options).unwrap())
+    };
+    let (found, most) = memory(None);
+    assert_eq!(found, most);
+    let (found, most) = memory(Some(IntRect::new(0, 20, 40, 50)));
+    assert_eq!(2 * found, most);
+    let (found, most) = memory(Some(IntRect::new(30, 0, 60, 20)));
+    assert_eq!(found, most);
 }
 
 #[test]
