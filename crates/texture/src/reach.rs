@@ -25,10 +25,11 @@ impl Sampler {
     /// ```
     /// use scumble_texture::{Levels, Sampler};
     ///
-    /// // Magnified, no pyramid is read; at an eighth of the size, only level 3.
+    /// // Magnified, no pyramid is read; at an eighth of the size only level 2, where a pixel is two texels
+    /// // wide.
     /// let levels = |s| Sampler::FAST.levels_for([s, s], [s, s]);
     /// assert_eq!(levels(0.3), Levels::BaseOnly);
-    /// assert_eq!(levels(8.0), Levels::Range { first: 3, last: 3 });
+    /// assert_eq!(levels(8.0), Levels::Range { first: 2, last: 2 });
     /// ```
     #[must_use]
     pub fn levels_for(&self, least: [f64; 2], most: [f64; 2]) -> Levels {
