@@ -3,7 +3,7 @@ use crate::render::check_limit;
 use crate::{RenderError, Settings};
 use scumble_pixel::WorkingSpace;
 use scumble_scene::{Command, ImageId, ImageQuad, ImageWrap, Scene, SceneImage, TexturedTriangle};
-use scumble_texture::{LevelMode, Levels, Texture, TextureOptions, Wrap};
+use scumble_texture::{LevelMode, Levels, Texels, Texture, TextureOptions, Wrap};
 use std::convert::Infallible;
 
 /// The textures of a scene, with their pyramids: what [`render`](crate::render) builds before each
@@ -49,7 +49,7 @@ impl Textures {
                 let Some(image) = image else { return Ok(None) };
                 let texture = Texture::new(image.pixels.view(), &texture_options(image, settings))
                     .map_err(|source| RenderError::Texture { index, source })?;
-                let opaque = image.pixels.pixels().iter().all(|texel| texel[3] == 255);
+                let opaque = Texels::straight(image.pixels.view()).is_opaque();
                 Ok(Some(Surface { texture, opaque }))
             })
             .collect();

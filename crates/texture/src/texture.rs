@@ -23,10 +23,10 @@ use scumble_pixel::{Image, ImageView, Premul, WorkingSpace};
 
 /// An image made ready to be filtered: its pyramid, premultiplied, in the working space.
 ///
-/// Texels take 8 bytes each (four numbers of 16 bits, in steps of 1/16,320), 4 in a level 0 of opaque bytes, or
-/// 16 as floats ([`Storage`](crate::Storage)); each level has eight more on every side, for what lies beyond its edge,
-/// and all levels together take a third more than the base: [`Texture::memory_for`] says it before
-/// anything is allocated.
+/// Texels take 8 bytes each (four numbers of 16 bits, in steps of 1/16,320), 4 in a level 0 of opaque
+/// bytes, or 16 as floats ([`Storage`](crate::Storage)); each level has eight more on every side, for what
+/// lies beyond its edge, and all levels together take a third more than the base:
+/// [`Texture::memory_for`] says it before anything is allocated.
 #[derive(Debug, Clone)]
 pub struct Texture {
     /// Those that are kept.

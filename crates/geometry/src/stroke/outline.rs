@@ -22,9 +22,9 @@ const ROOM: usize = 16;
 ///
 /// A chain's outline runs along its left side and back along its right side. At a join the outer
 /// side gets the join's shape and the inner one goes through the corner itself (or past it, where
-/// that makes no difference, [`InnerJoins`]); so the outline is, as a sum of closed curves, one quadrilateral per
-/// segment and one wedge per join, all clockwise to the eye, and winds around every point of the
-/// stroke at least once.
+/// that makes no difference, [`InnerJoins`]); so the outline is, as a sum of closed curves, one
+/// quadrilateral per segment and one wedge per join, all clockwise to the eye, and winds around every
+/// point of the stroke at least once.
 pub(super) struct Outliner<'a> {
     style: &'a StrokeStyle,
     radius: f64,

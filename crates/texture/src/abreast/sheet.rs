@@ -13,7 +13,7 @@ pub(super) struct Start<S: Simd> {
     pub(super) offset: f32x16<S>,
 }
 
-/// Memory for [`walk_all`], made once for a run of pixels: by quad and then by lane.
+/// Memory for [`walk_all`](super::walk_all), made once for a run of pixels: by quad and then by lane.
 #[derive(Debug)]
 pub(crate) struct Sheet {
     /// Four weights of 16 bits, the first in the lowest; of quads that are yet to be weighed [`Start`]s.
