@@ -24,7 +24,7 @@ const QUADS: usize = 4;
 const COLUMN: [f32; 16] = [0., 1., 2., 3., 0., 1., 2., 3., 0., 1., 2., 3., 0., 1., 2., 3.];
 
 /// Takes the four numbers of 32 bits in a block of sixteen bytes, block by block four times each.
-const EXPAND: [u8; 64] = {
+pub(crate) const EXPAND: [u8; 64] = {
     let mut bytes = [0; 64];
     let mut i = 0;
     while i < 64 {

@@ -18,12 +18,8 @@ use crate::texel::ROUNDER;
 use crate::walk::{LANES, Walk};
 use crate::{Texture, gaussian::lanes as gaussian};
 use fearless_simd::{Simd, f32x16, i16x32, i32x16, mask32x16, prelude::*};
-use sheet::Start;
+use sheet::{QUADS, Start};
 use sums::{Sums, finish_small};
-
-/// Quads of each walk that are weighed before their texels are read: as many as most ellipses of the
-/// default have. More take longer to clear for each run of pixels.
-const QUADS: usize = 24;
 
 /// The columns and rows of a quad.
 pub(crate) const QUAD: [i32; 2] = [LANES as i32, 1];
@@ -65,11 +61,7 @@ pub(crate) fn walk_all<S: Simd>(
     let places = level.places(simd, QUAD);
     let mut gather = Gather::new(simd, level.texels.whole(), wanted, small, sheet);
     for group in 0..most(groups) {
-        let mut rows = walks.rows(simd, groups, group);
-        for _ in 0..most(rows.count) {
-            let (start, at) = walks.start(simd, &places, &mut rows);
-            gather.start(walks, &start, at);
-        }
+        gather.start(walks, &places, walks.rows(simd, groups, group));
     }
     gather.weigh(walks);
     for i in lanes(gather.finish(out)) {
@@ -122,18 +114,27 @@ impl<'a, S: Simd> Gather<'a, S> {
         }
     }
 
-    /// A quad of each walk that is yet to be weighed.
+    /// Quads of rows of each walk, which are yet to be weighed.
     ///
     /// Where a quad begins takes a root, which takes its time, and so do weights, step by step. One row after
     /// the other, each would wait for the one and then for the other; so the beginnings of all rows are found,
     /// which wait together, and then all the weights.
     #[inline(always)]
-    fn start(&mut self, walks: &Walks<S>, start: &Start<S>, at: i32x16<S>) {
-        self.sheet.start(self.used, start, at);
-        self.used += 1;
-        if self.used == QUADS {
-            self.weigh(walks);
-            self.sum();
+    fn start(&mut self, walks: &Walks<S>, places: &Places<S>, mut rows: Rows<S>) {
+        let mut left = most(rows.count).max(0) as usize;
+        while left > 0 {
+            // Nothing else is done in the loop, so that the rows stay in registers.
+            let quads = left.min(QUADS - self.used);
+            for quad in self.used..self.used + quads {
+                let (start, at) = walks.start(self.simd, places, &mut rows);
+                self.sheet.start(quad, &start, at);
+            }
+            left -= quads;
+            self.used += quads;
+            if self.used == QUADS {
+                self.weigh(walks);
+                self.sum();
+            }
         }
     }
 
@@ -150,6 +151,7 @@ impl<'a, S: Simd> Gather<'a, S> {
     /// Adds the quads that stand in the sheet, which is empty then.
     #[inline(always)]
     fn sum(&mut self) {
+        self.sheet.turn(self.simd, self.used);
         self.sums.gather(self.simd, self.texels, self.wanted, self.sheet, self.used);
         self.used = 0;
         self.read = true;
@@ -160,6 +162,7 @@ impl<'a, S: Simd> Gather<'a, S> {
     #[inline(always)]
     pub(crate) fn finish(&mut self, out: &mut [[f32; 4]; ABREAST]) -> u64 {
         let Self { simd, texels, wanted, used, totals, .. } = *self;
+        self.sheet.turn(simd, used);
         let shares = shares(totals);
         if !self.read && most(totals) <= FITS {
             finish_small(simd, texels, wanted, self.sheet, used, &shares, out);
@@ -199,6 +202,7 @@ pub(crate) fn average_all<S: Simd, const C: usize, const R: usize>(
         totals += sum(simd, [left, right]);
         sheet.put(r, [left, right], inside.select(at, i32x16::splat(simd, 0)));
     }
+    sheet.turn(simd, R);
     finish_small(simd, level.texels.whole(), done, sheet, R, &shares(totals), out);
     done
 }

@@ -1,8 +1,11 @@
 //! Quads of sixteen walks, until their texels are read.
 
-use super::QUADS;
 use crate::run::ABREAST;
-use fearless_simd::{Simd, f32x16, i32x16, i64x8, prelude::*};
+use fearless_simd::{Simd, f32x16, i32x16, prelude::*};
+
+/// Quads of each walk that are weighed before their texels are read: as many as most ellipses of the
+/// default have.
+pub(super) const QUADS: usize = 24;
 
 /// The beginning of a quad in a row.
 #[derive(Clone, Copy)]
@@ -13,67 +16,108 @@ pub(super) struct Start<S: Simd> {
     pub(super) offset: f32x16<S>,
 }
 
-/// Memory for [`walk_all`](super::walk_all), made once for a run of pixels: by quad and then by lane.
-#[derive(Debug)]
+/// Memory for [`walk_all`](super::walk_all), made once for a run of pixels.
+#[derive(Debug, Default)]
 pub(crate) struct Sheet {
-    /// Four weights of 16 bits, the first in the lowest; of quads that are yet to be weighed [`Start`]s.
-    weights: [[i64; ABREAST]; QUADS],
-    /// The index of the first texel.
-    at: [[i32; ABREAST]; QUADS],
+    pairs: [Pair; QUADS / 2],
 }
 
-impl Default for Sheet {
+/// Two quads of each walk, whose texels are read together. As they are made, a number of all sixteen walks and
+/// then the next; turned, all numbers of one walk and then the next's.
+#[derive(Debug)]
+#[repr(align(64))]
+struct Pair {
+    /// The weights on the left of the first quad, two in the halves of a number, those on its right, and those of
+    /// the second. Of quads that are yet to be weighed, [`Start`]s.
+    weights: [i32; 4 * ABREAST],
+    /// The index of the first texel of each.
+    at: [i32; 2 * ABREAST],
+}
+
+impl Default for Pair {
     fn default() -> Self {
-        Self { weights: [[0; ABREAST]; QUADS], at: [[0; ABREAST]; QUADS] }
+        Self { weights: [0; 4 * ABREAST], at: [0; 2 * ABREAST] }
     }
 }
 
 impl Sheet {
     #[inline(always)]
-    pub(super) fn put<S: Simd>(
-        &mut self,
-        quad: usize,
-        [left, right]: [i32x16<S>; 2],
-        at: i32x16<S>,
-    ) {
-        self.weigh(quad, [left, right]);
-        self.at[quad] = at.to_array();
+    pub(super) fn put<S: Simd>(&mut self, quad: usize, weights: [i32x16<S>; 2], at: i32x16<S>) {
+        self.weigh(quad, weights);
+        at.store_slice(&mut self.pairs[quad / 2].at.as_chunks_mut::<ABREAST>().0[quad % 2]);
     }
 
     /// The weights of a quad, in the place of where it begins.
     #[inline(always)]
     pub(super) fn weigh<S: Simd>(&mut self, quad: usize, [left, right]: [i32x16<S>; 2]) {
-        let (first, second) = left.interleave(right);
-        self.keep(quad, [first.bitcast(), second.bitcast()]);
+        let lists = self.pairs[quad / 2].weights.as_chunks_mut::<ABREAST>().0;
+        left.store_slice(&mut lists[quad % 2 * 2]);
+        right.store_slice(&mut lists[quad % 2 * 2 + 1]);
     }
 
     /// Where a quad begins, in the place of its weights, and the index of its first texel.
     #[inline(always)]
     pub(super) fn start<S: Simd>(&mut self, quad: usize, start: &Start<S>, at: i32x16<S>) {
-        self.keep(quad, [start.e.bitcast(), start.offset.bitcast()]);
-        self.at[quad] = at.to_array();
+        self.put(quad, [start.e.bitcast(), start.offset.bitcast()], at);
     }
 
     #[inline(always)]
     pub(super) fn started<S: Simd>(&self, simd: S, quad: usize) -> Start<S> {
-        let (low, high) = self.weights[quad].split_at(ABREAST / 2);
-        let [e, offset] = [i64x8::from_slice(simd, low), i64x8::from_slice(simd, high)];
-        Start { e: e.bitcast(), offset: offset.bitcast() }
+        let lists = self.pairs[quad / 2].weights.as_chunks::<ABREAST>().0;
+        Start {
+            e: i32x16::load_array_ref(simd, &lists[quad % 2 * 2]).bitcast(),
+            offset: i32x16::load_array_ref(simd, &lists[quad % 2 * 2 + 1]).bitcast(),
+        }
     }
 
+    /// Turns so many quads; what is wanting of the last pair is without weight.
     #[inline(always)]
-    fn keep<S: Simd>(&mut self, quad: usize, [low, high]: [i64x8<S>; 2]) {
-        let (first, second) = self.weights[quad].split_at_mut(ABREAST / 2);
-        low.store_slice(first);
-        high.store_slice(second);
+    pub(super) fn turn<S: Simd>(&mut self, simd: S, quads: usize) {
+        if quads % 2 == 1 {
+            let nothing = i32x16::splat(simd, 0);
+            self.put(quads, [nothing, nothing], nothing);
+        }
+        for Pair { weights, at } in self.pairs.iter_mut().take(quads.div_ceil(2)) {
+            turn_four(simd, weights);
+            turn_two(simd, at);
+        }
     }
 
-    /// The weights of so many quads of a walk, and the index of the first texel of each.
+    /// So many quads of a walk, two by two: the weights of both, and their indices.
     #[inline(always)]
-    pub(super) fn quads(&self, quads: usize, walk: usize) -> impl Iterator<Item = (i64, i32)> {
-        self.weights[..quads.min(QUADS)].iter().zip(&self.at).map(
+    pub(super) fn pairs(
+        &self,
+        quads: usize,
+        walk: usize,
+    ) -> impl Iterator<Item = (&[i32; 4], &[i32; 2])> {
+        self.pairs.iter().take(quads.div_ceil(2)).map(
             #[inline(always)]
-            move |(weights, at)| (weights[walk], at[walk]),
+            move |Pair { weights, at }| {
+                let walk = walk % ABREAST;
+                (&weights.as_chunks().0[walk], &at.as_chunks().0[walk])
+            },
         )
     }
+}
+
+/// Puts side by side what four lists have in the same place.
+#[inline(always)]
+fn turn_four<S: Simd>(simd: S, lanes: &mut [i32; 4 * ABREAST]) {
+    let [a, b, c, d] = lanes.as_chunks_mut::<ABREAST>().0 else { return };
+    let first = i32x16::load_array_ref(simd, a).interleave(i32x16::load_array_ref(simd, c));
+    let second = i32x16::load_array_ref(simd, b).interleave(i32x16::load_array_ref(simd, d));
+    let (low, high) = (first.0.interleave(second.0), first.1.interleave(second.1));
+    low.0.store_slice(a);
+    low.1.store_slice(b);
+    high.0.store_slice(c);
+    high.1.store_slice(d);
+}
+
+/// The same of two lists.
+#[inline(always)]
+fn turn_two<S: Simd>(simd: S, lanes: &mut [i32; 2 * ABREAST]) {
+    let [a, b] = lanes.as_chunks_mut::<ABREAST>().0 else { return };
+    let (low, high) = i32x16::load_array_ref(simd, a).interleave(i32x16::load_array_ref(simd, b));
+    low.store_slice(a);
+    high.store_slice(b);
 }
