@@ -91,6 +91,12 @@ pub(crate) struct Places<S: Simd> {
     base: i32x16<S>,
 }
 
+/// Two numbers, each in all lanes. A map of the array would be a call that leaves the instruction set.
+#[inline(always)]
+fn both<S: Simd>(simd: S, [x, y]: [i32; 2]) -> [i32x16<S>; 2] {
+    [i32x16::splat(simd, x), i32x16::splat(simd, y)]
+}
+
 impl<S: Simd> Places<S> {
     /// The indices of the first of the texels from (x, y) on, or of texels that are the same; where they can
     /// not be read, something of no meaning.
@@ -266,15 +272,14 @@ impl Level {
     /// Where so many columns and rows of texels begin in the memory.
     #[inline(always)]
     pub(crate) fn places<S: Simd>(&self, simd: S, [columns, rows]: [i32; 2]) -> Places<S> {
-        let all = |v: i32| i32x16::splat(simd, v);
-        let Frame { low, high, .. } = self.frame;
-        let last = [high[0].saturating_sub(columns - 1), high[1].saturating_sub(rows - 1)];
+        let Frame { low, high: [right, bottom], .. } = self.frame;
+        let last = [right.saturating_sub(columns - 1), bottom.saturating_sub(rows - 1)];
         Places {
-            low: low.map(all),
-            last: last.map(all),
-            mask: self.mask.map(all),
-            stride: all(self.stride as i32),
-            base: all(self.base),
+            low: both(simd, low),
+            last: both(simd, last),
+            mask: both(simd, self.mask),
+            stride: i32x16::splat(simd, self.stride as i32),
+            base: i32x16::splat(simd, self.base),
         }
     }
 
