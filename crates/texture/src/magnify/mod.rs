@@ -6,7 +6,7 @@ use crate::level::Level;
 use crate::number::Number;
 use crate::run::ABREAST;
 use crate::{Kernel, Separable, Wrap};
-use fearless_simd::{Simd, f32x16, i32x16};
+use fearless_simd::{Simd, f32x16, i32x16, prelude::*};
 use patch::{Patch, Spot, Spotted};
 use taps::Places;
 
@@ -103,7 +103,7 @@ impl Magnify {
         match self.kernel() {
             Some(kernel) => kernel.sample(level, wrap, at),
             None if self == Self::Taps => {
-                Places::new(&at.spot).patch().average(level, wrap, at.base)
+                Places::new(&at.spot).patch::<{ taps::ROWS }>().average(level, wrap, at.base)
             }
             None => bilinear(&at.spot).average(level, wrap, at.base),
         }
@@ -129,7 +129,13 @@ impl Magnify {
                 average_all(simd, level, &patch, base, wanted, sheet, out)
             }
             None if self == Self::Taps => {
-                let patch = Places::new(spot).patch();
+                let places = Places::new(spot);
+                let few = places.last().simd_lt(taps::FEW).to_bitmask();
+                if wanted & !few == 0 {
+                    let patch = places.patch::<{ taps::FEW_ROWS }>();
+                    return average_all(simd, level, &patch, base, wanted, sheet, out);
+                }
+                let patch = places.patch::<{ taps::ROWS }>();
                 average_all(simd, level, &patch, base, wanted, sheet, out)
             }
             None => average_all(simd, level, &bilinear(spot), base, wanted, sheet, out),

@@ -39,6 +39,12 @@ pub(crate) const TO: f32 = 0.775;
 /// √½·[`TO`], along columns, and within √2 times as much along rows.
 pub(crate) const COLUMNS: usize = 4;
 pub(crate) const ROWS: usize = 5;
+
+/// Rows that hold the places of most pixels: those that lie less than so many, less one, below the first, by a
+/// margin for rounding.
+pub(crate) const FEW_ROWS: usize = 3;
+pub(crate) const FEW: f32 = (FEW_ROWS - 1) as f32 - 0.01;
+
 const _: () =
     assert!(2.0 * NODES[3] * core::f32::consts::FRAC_1_SQRT_2 * TO < (COLUMNS - 2) as f32);
 const _: () = assert!(2.0 * NODES[3] * TO < (ROWS - 2) as f32);
@@ -75,25 +81,31 @@ impl<N: Number> Places<N> {
         Self { low, centre: [spot.x - low[0], spot.y - low[1]], first: along, second }
     }
 
+    /// How far below the first row of texels the last place lies.
+    #[inline(always)]
+    pub(crate) fn last(&self) -> N {
+        self.centre[1] + (self.first[1].abs() + self.second) * NODES[3]
+    }
+
     /// The weights of the texels. A place beyond them counts as the nearest.
     ///
     /// A place between two texels gives to those from the second on what it is beyond the first. So
     /// the shares of all texels from one on are ramps, and a texel's own is the difference of two; and
     /// four places share a column.
     #[inline(always)]
-    pub(crate) fn patch(&self) -> Patch<N, COLUMNS, ROWS> {
+    pub(crate) fn patch<const R: usize>(&self) -> Patch<N, COLUMNS, R> {
         let zero = self.second.all(0.0);
-        let mut weights = [[zero; COLUMNS]; ROWS];
+        let mut weights = [[zero; COLUMNS]; R];
         for (p, weight) in NODES.into_iter().zip(WEIGHTS) {
             let x = self.centre[0] + self.first[0] * p;
             let y = self.centre[1] + self.first[1] * p;
-            let rows = self.rows(y);
+            let rows = self.rows::<R>(y);
             let columns: [N; COLUMNS] = shares(
                 #[inline(always)]
                 |c| (x - c).within_unit() * (weight * WEIGHT),
                 zero.all(weight * WEIGHT),
             );
-            for r in 0..ROWS {
+            for r in 0..R {
                 for c in 0..COLUMNS {
                     weights[r][c] = weights[r][c] + rows[r] * columns[c];
                 }
@@ -104,7 +116,7 @@ impl<N: Number> Places<N> {
 
     /// The shares of rows in the four places about (·, y).
     #[inline(always)]
-    fn rows(&self, y: N) -> [N; ROWS] {
+    fn rows<const R: usize>(&self, y: N) -> [N; R] {
         let [outer, inner, ..] = WEIGHTS;
         let (far, near) = (self.second * NODES[3], self.second * NODES[2]);
         let [a, b, c, d] = [y - far, y - near, y + near, y + far];
