@@ -103,10 +103,15 @@ impl Run for Listed<'_> {
         }
         // A map of the array would be calls that leave the instruction set.
         let [u, v, a, b, c, d] = &numbers;
-        let centre = [f64x8::load_array_ref(simd, u), f64x8::load_array_ref(simd, v)];
-        let first = [f64x8::load_array_ref(simd, a), f64x8::load_array_ref(simd, b)];
-        let second = [f64x8::load_array_ref(simd, c), f64x8::load_array_ref(simd, d)];
-        Eight { centre, jacobian: [first[0], first[1], second[0], second[1]] }
+        Eight {
+            centre: [f64x8::load_array_ref(simd, u), f64x8::load_array_ref(simd, v)],
+            jacobian: [
+                f64x8::load_array_ref(simd, a),
+                f64x8::load_array_ref(simd, b),
+                f64x8::load_array_ref(simd, c),
+                f64x8::load_array_ref(simd, d),
+            ],
+        }
     }
 }
 

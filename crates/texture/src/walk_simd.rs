@@ -24,7 +24,7 @@ const QUADS: usize = 4;
 const COLUMN: [f32; 16] = [0., 1., 2., 3., 0., 1., 2., 3., 0., 1., 2., 3., 0., 1., 2., 3.];
 
 /// Takes the four numbers of 32 bits in a block of sixteen bytes, block by block four times each.
-pub(crate) const EXPAND: [u8; 64] = {
+const EXPAND: [u8; 64] = {
     let mut bytes = [0; 64];
     let mut i = 0;
     while i < 64 {
@@ -61,7 +61,13 @@ fn piece<S: Simd>(
 /// Four numbers, four times each.
 #[inline(always)]
 pub(crate) fn expand<S: Simd>(simd: S, numbers: [f32; QUADS]) -> f32x16<S> {
-    let four = f32x16::block_splat(f32x4::load_array(simd, numbers));
+    four_times(simd, f32x4::load_array(simd, numbers).bitcast()).bitcast()
+}
+
+/// Four numbers of 32 bits, whatever they are, four times each.
+#[inline(always)]
+pub(crate) fn four_times<S: Simd>(simd: S, numbers: i32x4<S>) -> i32x16<S> {
+    let four = i32x16::block_splat(numbers);
     four.swizzle_dyn_within_blocks(u8x64::load_array(simd, EXPAND))
 }
 

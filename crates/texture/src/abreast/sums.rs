@@ -6,7 +6,7 @@ use crate::run::ABREAST;
 use crate::store::{CODE_BITS, Code, Whole};
 use crate::texel::Texel;
 use crate::walk::{LANES, mean};
-use crate::walk_simd::{EXPAND, PAIR};
+use crate::walk_simd::{PAIR, four_times};
 use fearless_simd::{Simd, i16x16, i16x32, i32x4, i32x16, prelude::*, u8x16, u8x64};
 
 /// The means of walks of which all quads stand in the sheet, and whose sums fit 31 bits.
@@ -174,8 +174,7 @@ fn weighed<S: Simd, T: Quad>(
         };
         let pairs = T::both(simd, first, second);
         let pairs = pairs.swizzle_dyn_within_blocks(u8x64::load_array_ref(simd, &PAIR));
-        let weights = i32x16::block_splat(i32x4::load_array_ref(simd, weights));
-        let weights = weights.swizzle_dyn_within_blocks(u8x64::load_array_ref(simd, &EXPAND));
+        let weights = four_times(simd, i32x4::load_array_ref(simd, weights));
         own += pairs.pairwise_dot_product(weights.bitcast::<i16x32<S>>());
     }
     own
