@@ -25,7 +25,10 @@ const STEPS: [Step; 11] = [
         args: "doc --workspace --no-deps --all-features",
         envs: &[("RUSTDOCFLAGS", "-D warnings")],
     },
-    step("geometry without std", "check -p scumble-geometry --no-default-features --features libm"),
+    step(
+        "geometry without std",
+        "check -p scumble-geometry --no-default-features --features libm,paths",
+    ),
     step("pixel without std", "check -p scumble-pixel --no-default-features"),
     step("coverage without std", "check -p scumble-coverage --no-default-features --features libm"),
     step("framebuffer without std", "check -p scumble-framebuffer --no-default-features"),

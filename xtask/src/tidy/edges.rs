@@ -34,7 +34,7 @@ const fn library(
 }
 
 const ROOMS: [Room; 14] = [
-    library("scumble-geometry", &[], &["glam"]),
+    library("scumble-geometry", &[], &["fearless_simd", "glam"]),
     library("scumble-pixel", &[], &[]),
     library("scumble-coverage", &["scumble-geometry"], &["fearless_simd", "glam"]),
     library(

@@ -10,18 +10,20 @@
 //! the curve) ([`Density`]). That the chords keep the tolerance is not: each is looked at ([`Span`]).
 //! If one fails there are some more of them, and then two halves, each by itself.
 
+#[cfg(test)]
+mod definition;
 mod density;
 mod span;
+mod wide;
 
 use crate::flatten::halve;
 use crate::math::sqrt;
 use crate::{DVec2, Path};
 use alloc::vec::Vec;
 use density::{Density, END_STEP, count};
-use span::{Cubic, Span, Vertex};
-
-/// There is room for as many points at once: to grow step by step takes longer.
-const ROOM: usize = 64;
+use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
+use span::{Cubic, Spans, Vertices};
+use wide::{LANES, lanes, splat};
 
 /// Finds chords for curves, one after the other in the same memory.
 pub(crate) struct Chords<F> {
@@ -31,8 +33,11 @@ pub(crate) struct Chords<F> {
     radius: f64,
     /// Tells of a tangent at either end of a curve, and of the chord there, whether that will do.
     fits: F,
+    level: Level,
     places: Vec<f64>,
-    vertices: Vec<Vertex>,
+    /// Where chords end, first by first, and then as many more as fill vectors.
+    xs: Vec<f64>,
+    ys: Vec<f64>,
 }
 
 /// Whether a piece of a curve begins and ends where the whole does.
@@ -40,7 +45,16 @@ type Ends = [bool; 2];
 
 impl<F: Fn(DVec2, DVec2) -> bool> Chords<F> {
     pub(crate) fn new(tolerance: f64, radius: f64, fits: F) -> Self {
-        Self { tolerance, radius, fits, places: Vec::new(), vertices: Vec::new() }
+        #[cfg(feature = "std")]
+        let level = Level::new();
+        #[cfg(not(feature = "std"))]
+        let level = Level::baseline();
+        Self::with_level(tolerance, radius, fits, level)
+    }
+
+    fn with_level(tolerance: f64, radius: f64, fits: F, level: Level) -> Self {
+        let (places, xs, ys) = Default::default();
+        Self { tolerance, radius, fits, level, places, xs, ys }
     }
 
     /// Pushes the points of a curve after its first. Its chords leave it, and it leaves its chords, by
@@ -79,7 +93,7 @@ impl<F: Fn(DVec2, DVec2) -> bool> Chords<F> {
         if most == 1 || !even.is_finite() || is_flat() {
             return out.push(curve[3]);
         }
-        let density = Density::new(&cubic, self.tolerance, self.radius);
+        let density = self.density(&cubic);
         let least = count(density.steps());
         // Rather all of a curve coarser than its end, if there are too many.
         if least > most || self.radius == 0.0 && least >= even_count {
@@ -87,11 +101,12 @@ impl<F: Fn(DVec2, DVec2) -> bool> Chords<F> {
         }
         for count in [least, least + 1 + least / 8] {
             if count <= most && self.place(&cubic, &density, count) {
-                let [_, inner @ .., _] = &self.vertices[..] else { continue };
-                let last = inner.last().map_or(curve[0], Vertex::position);
-                let first = inner.first().map_or(curve[3], Vertex::position);
+                let inner = count as usize - 1;
+                let at = |i: usize| DVec2::new(self.xs[i], self.ys[i]);
+                let last = inner.checked_sub(1).map_or(curve[0], at);
+                let first = if inner > 0 { at(0) } else { curve[3] };
                 if self.ends_fit(curve, ends, [first, last]) {
-                    out.extend(inner.iter().map(Vertex::position));
+                    out.extend((0..inner).map(at));
                     return out.push(curve[3]);
                 }
             }
@@ -112,22 +127,49 @@ impl<F: Fn(DVec2, DVec2) -> bool> Chords<F> {
         (!ends[0] || fits(p0, [p1, p2, p3], to)) && (!ends[1] || fits(p3, [p2, p1, p0], from))
     }
 
+    fn density(&self, cubic: &Cubic) -> Density {
+        let Self { tolerance, radius, .. } = *self;
+        dispatch!(self.level, simd => Density::new(simd, cubic, tolerance, radius))
+    }
+
     /// Puts the vertices of so many chords where the density tells. Tells whether all chords hold.
     fn place(&mut self, cubic: &Cubic, density: &Density, count: u32) -> bool {
-        // One step for all of them, then the next: so a processor works on several at once, where a
-        // chord would have to wait for the one before.
-        let room = ROOM.max(count as usize + 2);
-        self.places.clear();
-        self.places.reserve(room);
-        density.places(count, &mut self.places);
-        self.vertices.clear();
-        self.vertices.reserve(room);
-        self.vertices.push(cubic.start());
-        let vertex = |t: &[f64]| cubic.vertex(t[1], (t[1] - t[0]) * (t[2] - t[1]), self.tolerance);
-        self.vertices.extend(self.places.windows(3).map(vertex));
-        self.vertices.push(cubic.end());
-        let holds = |ends: &[Vertex]| Span { from: &ends[0], to: &ends[1] }.holds(self.tolerance);
-        self.vertices.windows(2).all(holds)
+        dispatch!(self.level, simd => self.place_by(simd, cubic, density, count))
+    }
+
+    #[inline(always)]
+    fn place_by<S: Simd>(&mut self, simd: S, cubic: &Cubic, density: &Density, count: u32) -> bool {
+        density.places(simd, count, &mut self.places);
+        let count = count as usize;
+        let room = count.next_multiple_of(LANES);
+        if self.xs.len() < room {
+            self.xs.resize(room, 0.0);
+            self.ys.resize(room, 0.0);
+        }
+        let mut before = cubic.start(simd);
+        for first in (0..count).step_by(LANES) {
+            // Where the chord `first` ends, and those after it.
+            let places = &self.places[first..first + LANES + 2];
+            let from = f64x8::from_slice(simd, &places[..LANES]);
+            let t = f64x8::from_slice(simd, &places[1..=LANES]);
+            let to = f64x8::from_slice(simd, &places[2..]);
+            let mut ends = cubic.vertices(simd, t, (t - from) * (to - t), self.tolerance);
+            let mut is_chord = simd.splat_mask64x8(true);
+            if first + LANES >= count {
+                let (chord, last) = (lanes(simd), splat(simd, (count - 1 - first) as f64));
+                ends = Vertices::select(chord.simd_eq(last), &cubic.end(simd), &ends);
+                is_chord = chord.simd_le(last);
+            }
+            let positions = ends.position();
+            positions.x.store_slice(&mut self.xs[first..first + LANES]);
+            positions.y.store_slice(&mut self.ys[first..first + LANES]);
+            let spans = Spans { from: before.slide(&ends), to: ends };
+            if (is_chord & !spans.hold(simd, self.tolerance)).any_true() {
+                return false;
+            }
+            before = ends;
+        }
+        true
     }
 }
 

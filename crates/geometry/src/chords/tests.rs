@@ -88,6 +88,33 @@ proptest! {
     }
 
     #[test]
+    fn eight_at_a_time_they_are_what_they_are_one_by_one(
+        p in prop::array::uniform8(-60.0..60.0f64),
+        tolerance in 0.01..1.0f64,
+        radius in prop_oneof![Just(0.0), 0.1..20.0f64],
+        (count, finer) in (1..40u32, any::<bool>()),
+        slow in 0..4usize,
+    ) {
+        let mut curve: [DVec2; 4] = core::array::from_fn(|i| DVec2::new(p[2 * i], p[2 * i + 1]));
+        curve[slow] = curve[1];
+        let cubic = Cubic::new(&curve);
+        for level in [Level::baseline(), Level::new()] {
+            let mut chords = Chords::with_level(tolerance, radius, |_, _| true, level);
+            let density = chords.density(&cubic);
+            let (_, steps) = Density::of_one(&cubic, tolerance, radius);
+            prop_assert_eq!(density.steps(), steps);
+            // As few as may do, or any number.
+            let count = if finer { density::count(steps) + count % 3 } else { count };
+            let holds = chords.place(&cubic, &density, count);
+            let expected = definition::place(&cubic, (tolerance, radius), count);
+            prop_assert_eq!(holds, expected.is_some());
+            for (i, p) in expected.iter().flatten().enumerate() {
+                prop_assert_eq!([chords.xs[i], chords.ys[i]], [p.x, p.y]);
+            }
+        }
+    }
+
+    #[test]
     fn there_are_no_more_chords_than_room(
         p in prop::array::uniform8(-60.0..60.0f64), room in 0..40usize,
     ) {
