@@ -44,17 +44,23 @@ fn snap(v: f64) -> Option<i32> {
 }
 
 /// 1.5 × 2⁵²: added to a small number, it leaves the nearest whole number in the low bits.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
+pub(crate) const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 /// The whole number v, |v| ≤ 2³¹. A plain cast would also look for NaN and saturate.
 #[inline]
 pub(crate) fn low_bits(v: f64) -> i32 {
-    (v + ROUNDER).to_bits() as i32
+    whole_bits(v + WHOLE)
+}
+
+/// The whole number, |v| ≤ 2³¹, to which [`WHOLE`] was added.
+#[inline(always)]
+pub(crate) fn whole_bits(v: f64) -> i32 {
+    v.to_bits() as i32
 }
 
 /// `f64::floor` for |v| < 2⁵¹, without the standard library; beyond it something as large.
 #[inline]
 pub(crate) fn floor(v: f64) -> f64 {
-    let nearest = (v + ROUNDER) - ROUNDER;
+    let nearest = (v + WHOLE) - WHOLE;
     if nearest > v { nearest - 1.0 } else { nearest }
 }

@@ -14,7 +14,8 @@ mod tests;
 
 pub(crate) use row::{AreaRow, GAP, eight_right};
 pub(crate) use slope::{
-    Reach, Slope, eight_areas, eight_parts, extent, mirrored, rounded_parts, splat, touched,
+    Reach, Slope, eight_areas, eight_parts, extent, mirrored, mirrored_eight, rounded_parts, splat,
+    touched,
 };
 
 /// Pixels that are summed side by side.

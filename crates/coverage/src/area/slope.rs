@@ -185,6 +185,18 @@ pub(crate) fn mirrored(sign: f64, x: f64, all: f64) -> (f64, f64) {
     (sign * x - is_mirrored, is_mirrored * all)
 }
 
+/// [`mirrored`] of an edge and a pixel each.
+#[inline(always)]
+pub(crate) fn mirrored_eight<S: Simd>(
+    simd: S,
+    sign: f64x8<S>,
+    x: f64x8<S>,
+    all: f64x8<S>,
+) -> (f64x8<S>, f64x8<S>) {
+    let is_mirrored = splat(simd, 0.5) - splat(simd, 0.5) * sign;
+    (sign * x - is_mirrored, is_mirrored * all)
+}
+
 /// Eight times the same. (A function, as a closure would not be compiled for the instruction set.)
 #[inline(always)]
 pub(crate) fn splat<S: Simd>(simd: S, v: f64) -> f64x8<S> {

@@ -1,7 +1,7 @@
 //! What area coverage needs to know of a few rows of a clip: the edges that meet each of them, and
 //! the winding number at their left side.
 
-use super::eights::Eights;
+use super::eights::{Eights, Rows};
 use super::steps::Steps;
 use super::strips::AreaEdge;
 use super::sums::RowSums;
@@ -48,18 +48,13 @@ impl Source {
         AreaEdge { slope: self.slope, winding: self.winding, from, to }
     }
 
-    /// Adds it to the sums of the rows that it meets, of which the first is row `y0`. `place` is its
-    /// own among the gathered edges. `all_proven` says that all of the rows are.
+    /// Adds it to the sums of those rows that it meets of which not all is known. `place` is its own
+    /// among the gathered edges.
     #[inline(always)]
-    fn add<S: Simd>(
-        &self,
-        simd: S,
-        place: u32,
-        (y0, rows, all_proven): (i32, &mut [RowSums], bool),
-        eights: &mut Eights,
-    ) {
+    fn add<S: Simd>(&self, simd: S, place: u32, rows: &mut Rows<'_>) {
+        let y0 = rows.y0;
         let top = self.top.max(y0 * 256);
-        let bottom = self.bottom.min((y0 + rows.len() as i32) * 256);
+        let bottom = self.bottom.min((y0 + rows.sums.len() as i32) * 256);
         let height = |y: i32| f64::from(y) * (1.0 / 256.0);
         let mut at = top;
         let mut start = height(top);
@@ -72,11 +67,9 @@ impl Source {
             let to = self.slope.along(end);
             let Slope { sign, half_rise, .. } = self.slope;
             let reach = Reach { sign, from, to, height: end - start, half_rise };
-            if all_proven || rows[row].proven {
-                eights.push(simd, row, (&reach, self.winding), rows);
-            } else {
+            if !rows.sums[row].proven {
                 let heights = (at - row_top, next - row_top);
-                rows[row].add(simd, (place, self.winding), heights, &reach);
+                rows.sums[row].add(simd, (place, self.winding), heights, &reach);
             }
             (at, start, from) = (next, end, to);
         }
@@ -123,14 +116,16 @@ impl Gathered {
         simd: S,
         polygon: &Polygon,
         (x0, x1): (i32, i32),
-        (y0, rows): (i32, &mut [RowSums]),
+        (y0, sums): (i32, &mut [RowSums]),
     ) {
         self.edges.clear();
         self.left.clear();
-        let (top, bottom) = (y0 * 256, (y0 + rows.len() as i32) * 256);
+        let mut rows = Rows { y0, sums };
+        let (top, bottom) = (y0 * 256, (y0 + rows.sums.len() as i32) * 256);
         let (left, right) = (x0 * 256, x1 * 256 - 1);
         let (edges, steps) = polygon.bands.between(top, (left, right));
-        let all_proven = rows.iter().all(|row| row.proven);
+        let all_proven = rows.sums.iter().all(|row| row.proven);
+        let any_proven = rows.sums.iter().any(|row| row.proven);
         // Then nothing needs to be asked of each edge.
         let is_whole = polygon.bounds.x0 >= x0 && polygon.bounds.x1 <= x1;
         for e in edges {
@@ -140,14 +135,17 @@ impl Gathered {
             if !is_whole && e.right() < left {
                 self.left.add_edge(e, top, bottom);
             } else if is_whole || e.left() <= right {
-                let (source, place) = (Source::from(*e), self.edges.len() as u32);
-                source.add(simd, place, (y0, rows, all_proven), &mut self.eights);
+                if any_proven {
+                    self.eights.push(simd, e, &mut rows);
+                }
                 if !all_proven {
+                    let (source, place) = (Source::from(*e), self.edges.len() as u32);
+                    source.add(simd, place, &mut rows);
                     self.edges.push(source);
                 }
             }
         }
-        self.eights.flush(simd, rows);
+        self.eights.flush(simd, &mut rows);
         for &(height, change) in steps {
             self.left.add(height.clamp(top, bottom) - top, change);
         }

@@ -14,7 +14,7 @@ use super::Polygon;
 use super::eights::A_LITTLE;
 use super::steps::Steps;
 use crate::area::{CHUNK, Reach, eight_right, splat};
-use crate::fixed::{floor, low_bits};
+use crate::fixed::{WHOLE, floor, low_bits};
 use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, f64x8, prelude::*};
@@ -134,12 +134,12 @@ impl RowSums {
         }
     }
 
-    /// Adds the `rises` of an edge that touches one or two pixels, if the row has both, to a row of which
-    /// all is known; else says `false`.
+    /// Adds the `rises` of an edge that touches a pixel, and one `more` or none, if the row has them, to a
+    /// row of which all is known; else says `false`.
     #[inline(always)]
-    pub(super) fn add_short(&mut self, (first, last): (i32, i32), rises: [f64; 3]) -> bool {
+    pub(super) fn add_short(&mut self, (first, more): (i32, i32), rises: [f64; 3]) -> bool {
         let column = first.wrapping_sub(self.x0) as u32 as usize;
-        let two = last.wrapping_sub(first) as u32;
+        let two = more as u32;
         if two > 1 || column + two as usize >= self.chunks * 8 {
             return false;
         }
@@ -408,9 +408,9 @@ const GAP: usize = 4;
 #[inline(always)]
 fn area<const EVEN_ODD: bool>(mean: f64) -> f32 {
     if EVEN_ODD {
-        // How far it is from an even number.
+        // How far it is from an even number: twice the nearest whole number.
         let half = mean * 0.5;
-        let whole = (half + ROUNDER) - ROUNDER;
+        let whole = (half + WHOLE) - WHOLE;
         return held((half - whole).abs() * 2.0);
     }
     held(mean.abs())
@@ -420,9 +420,6 @@ fn area<const EVEN_ODD: bool>(mean: f64) -> f32 {
 fn held(area: f64) -> f32 {
     area.clamp(0.0, 1.0) as f32
 }
-
-/// 1.5 × 2⁵²: adding it and taking it away again rounds to the nearest whole number.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// Receives a row from left to right.
 pub(super) trait Stretches {

@@ -5,6 +5,7 @@
 //! is off by one at the most, and its remainder, which is exact too, tells.
 
 use crate::edge::Edge;
+use crate::fixed::{WHOLE, whole_bits};
 use crate::{SampleMask, SamplePattern, Sink};
 use core::ops::Range;
 use fearless_simd::{Simd, f64x8, prelude::*};
@@ -263,7 +264,8 @@ impl<const N: usize> Stretches<N> {
     }
 }
 
-/// Eight whole numbers of a size that fits 32 bits, as they come out of a register.
+/// Eight whole numbers of a size that fits 32 bits, as they come out of a register: with [`WHOLE`]
+/// added.
 struct Lanes([f64; 8]);
 
 impl Lanes {
@@ -271,13 +273,12 @@ impl Lanes {
 
     #[inline(always)]
     fn new<S: Simd>(simd: S, v: f64x8<S>) -> Self {
-        // 1.5 × 2⁵² leaves no bit after the point, and the number in the low bits.
-        Self((v + f64x8::splat(simd, 6_755_399_441_055_744.0)).to_array())
+        Self((v + f64x8::splat(simd, WHOLE)).to_array())
     }
 
     #[inline(always)]
     fn get(&self, i: usize) -> i32 {
-        self.0[i].to_bits() as i32
+        whole_bits(self.0[i])
     }
 }
 
