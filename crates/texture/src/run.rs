@@ -116,11 +116,19 @@ impl Run for Listed<'_> {
 }
 
 impl<S: Simd> Eight<S> {
-    /// The centres as [`Texture::nearer`] has them; anything at all for one that is not finite.
+    /// The same as [`Texture::nearer`] has them; anything at all for a centre that is not finite.
     #[inline(always)]
-    fn near(&self, simd: S, t: &Texture) -> [f64x8<S>; 2] {
+    fn near(&self, simd: S, t: &Texture) -> Self {
         let ([u, v], [near_u, near_v]) = (self.centre, &t.nearer);
-        [near_u.bring_lanes(simd, u), near_v.bring_lanes(simd, v)]
+        let [u, v] = [near_u.bring_lanes(simd, u), near_v.bring_lanes(simd, v)];
+        let (Some((u, along_u)), Some((v, along_v))) =
+            (near_u.before_mirror_lanes(simd, u), near_v.before_mirror_lanes(simd, v))
+        else {
+            return Self { centre: [u, v], jacobian: self.jacobian };
+        };
+        let [a, b, c, d] = self.jacobian;
+        let jacobian = [a * along_u, b * along_u, c * along_v, d * along_v];
+        Self { centre: [u, v], jacobian }
     }
 
     /// 0 where the centre is finite, else a NaN.
@@ -154,15 +162,15 @@ pub(crate) struct Sixteen<S: Simd> {
 impl<S: Simd> Sixteen<S> {
     #[inline(always)]
     fn new(simd: S, t: &Texture, low: &Eight<S>, high: &Eight<S>) -> Self {
-        let (at_low, at_high) = (low.near(simd, t), high.near(simd, t));
+        let lost = low.lost().narrow(high.lost());
+        let (low, high) = (low.near(simd, t), high.near(simd, t));
         let ([a0, b0, c0, d0], [a1, b1, c1, d1]) = (low.jacobian, high.jacobian);
         let [a, b, c, d] = [a0.narrow(a1), b0.narrow(b1), c0.narrow(c1), d0.narrow(d1)];
         // As in Footprint::is_bounded; a NaN stays one.
         let sum = (a.abs() + b.abs()) + (c.abs() + d.abs());
-        let lost = low.lost().narrow(high.lost());
         Self {
-            u: [at_low[0], at_high[0]],
-            v: [at_low[1], at_high[1]],
+            u: [low.centre[0], high.centre[0]],
+            v: [low.centre[1], high.centre[1]],
             jacobian: [a, b, c, d],
             determinant: low.determinant().narrow(high.determinant()),
             finite: lost.simd_eq(0.0),

@@ -18,7 +18,7 @@ use crate::{
 };
 use alloc::vec::Vec;
 use fearless_simd::dispatch;
-use scumble_geometry::{DVec2, Homography, IntRect};
+use scumble_geometry::{DVec2, Homography, IntRect, Matrix2};
 use scumble_pixel::{Image, ImageView, Premul, WorkingSpace};
 
 /// An image made ready to be filtered: its pyramid, premultiplied, in the working space.
@@ -358,13 +358,17 @@ impl Texture {
         [self.first, self.first + self.levels.len() - 1]
     }
 
-    /// The footprint with its centre brought near.
+    /// The footprint with its centre brought near, and out of the mirror if there is one.
     #[inline(always)]
     pub(crate) fn nearer(&self, f: &Footprint) -> Footprint {
         let [u, v] = &self.nearer;
         // A centre that is not finite stays so: ∞ − ∞ and 0·∞ are NaN, and NaN survives the sum.
         let lost = 0.0 * f.u + 0.0 * f.v;
-        Footprint { u: u.bring(f.u) + lost, v: v.bring(f.v) + lost, jacobian: f.jacobian }
+        let (at_u, along_u) = u.before_mirror(u.bring(f.u));
+        let (at_v, along_v) = v.before_mirror(v.bring(f.v));
+        let Matrix2 { a, b, c, d } = f.jacobian;
+        let jacobian = Matrix2::new(a * along_u, b * along_u, c * along_v, d * along_v);
+        Footprint { u: at_u + lost, v: at_v + lost, jacobian }
     }
 
     /// What stands for a footprint that reaches infinitely far.

@@ -55,6 +55,8 @@ pub(crate) struct Nearer {
     periodic: bool,
     period: f64,
     inverse: f64,
+    /// Where the mirror stands, whose far side ends with the period.
+    mirror: Option<f64>,
 }
 
 impl Nearer {
@@ -66,7 +68,8 @@ impl Nearer {
             Wrap::Mirror => 2.0 * n as f64,
         };
         let periodic = matches!(wrap, Wrap::Repeat | Wrap::Mirror);
-        Self { periodic, period, inverse: 1.0 / period }
+        let mirror = (wrap == Wrap::Mirror).then_some(n as f64);
+        Self { periodic, period, inverse: 1.0 / period, mirror }
     }
 
     /// The same place on the axis; anything at all for a position that is not finite.
@@ -78,6 +81,29 @@ impl Nearer {
         } else {
             u.clamp(-FAR, FAR)
         }
+    }
+
+    /// What stands in the texture itself for a place that was brought near, and the sign of a step there:
+    /// a place in the mirror is seen in front of it, where one goes the other way.
+    #[inline(always)]
+    pub(crate) fn before_mirror(&self, u: f64) -> (f64, f64) {
+        match self.mirror {
+            Some(mirror) if u > mirror => (self.period - u, -1.0),
+            _ => (u, 1.0),
+        }
+    }
+
+    /// [`Nearer::before_mirror`] of eight, if there is a mirror.
+    #[inline(always)]
+    pub(crate) fn before_mirror_lanes<S: Simd>(
+        &self,
+        simd: S,
+        u: f64x8<S>,
+    ) -> Option<(f64x8<S>, f64x8<S>)> {
+        let behind = u.simd_gt(self.mirror?);
+        let one = f64x8::splat(simd, 1.0);
+        let place = behind.select(f64x8::splat(simd, self.period) - u, u);
+        Some((place, behind.select(-one, one)))
     }
 
     /// [`Nearer::bring`] of eight; anything at all for those that are not finite.

@@ -111,6 +111,34 @@ fn turned(turns: [f64; 2], [major, minor]: [f64; 2]) -> Matrix2 {
 }
 
 proptest! {
+    /// A place in a mirror shows what stands in front of it, to the bit, and as many periods on.
+    #[test]
+    fn a_mirror_shows_what_stands_before_it(
+        (w, h) in (1usize..60, 1usize..60),
+        // Not on the line between two texels, where the nearest is that on the right in both.
+        (x, y) in (0u32..1 << 20, 0u32..1 << 20),
+        (periods, mirrored) in ((-3i32..4, -3i32..4), (any::<bool>(), any::<bool>())),
+        (turns, axes) in (prop::array::uniform2(0.0..7.0f64), prop::array::uniform2(0.0..9.0f64)),
+        sampler in samplers(),
+        seed in 0u64..4,
+    ) {
+        let wrap = Wrap::Mirror;
+        let texture = texture(w, h, seed, &TextureOptions { wrap, ..TextureOptions::default() });
+        let place = |x: u32, n: usize| (f64::from(x % (n as u32 * 64)) + 0.5) / 64.0;
+        let (u, v, jacobian) = (place(x, w), place(y, h), turned(turns, axes));
+        let before = texture.sample(&Footprint { u, v, jacobian }, &sampler);
+        let along = |u: f64, n: usize, periods: i32, mirrored: bool| {
+            let sign = if mirrored { -1.0 } else { 1.0 };
+            (sign * u + f64::from(2 * periods) * n as f64, sign)
+        };
+        let (u, su) = along(u, w, periods.0, mirrored.0);
+        let (v, sv) = along(v, h, periods.1, mirrored.1);
+        let Matrix2 { a, b, c, d } = jacobian;
+        let jacobian = Matrix2::new(a * su, b * su, c * sv, d * sv);
+        let behind = Footprint { u, v, jacobian };
+        prop_assert_eq!(texture.sample(&behind, &sampler), before, "{:?}", behind);
+    }
+
     /// A texture that has only the levels that are said to be read gives what all of them give.
     #[test]
     fn the_levels_for_footprints_are_those_that_they_read(
