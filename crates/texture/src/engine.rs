@@ -10,6 +10,9 @@ use scumble_pixel::Premul;
 
 /// The inner loops, in scalar code or in vectors: the same bits from each.
 pub(crate) trait Engine: Copy {
+    /// Calls a function, compiled for the instructions; it and the closures in it are to be inlined.
+    fn call<R>(self, f: impl FnOnce() -> R) -> R;
+
     /// The weighted average of the texels in an ellipse.
     fn walk(self, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4];
 
@@ -42,6 +45,11 @@ pub(crate) struct Vector<S>(pub(crate) S);
 
 impl Engine for Scalar {
     #[inline(always)]
+    fn call<R>(self, f: impl FnOnce() -> R) -> R {
+        f()
+    }
+
+    #[inline(always)]
     fn walk(self, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
         crate::walk::walk(level, wrap, w)
     }
@@ -68,9 +76,14 @@ impl Engine for Scalar {
 
 impl<S: Simd> Engine for Vector<S> {
     #[inline(always)]
+    fn call<R>(self, f: impl FnOnce() -> R) -> R {
+        self.0.vectorize(f)
+    }
+
+    #[inline(always)]
     fn walk(self, level: &Level, wrap: Wrap, w: &Walk) -> [f32; 4] {
         // A function of its own, compiled once for the instruction set.
-        self.0.vectorize(
+        self.call(
             #[inline(always)]
             || crate::walk_simd::walk(self.0, level, wrap, w),
         )

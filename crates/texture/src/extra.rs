@@ -148,7 +148,7 @@ impl Area {
                     *out = if f.is_finite() { color() } else { t.average() };
                 }
             }
-            Self::Radial(radial) => each(t, footprints, out, |f| radial.sample(t, f)),
+            Self::Radial(radial) => each(t, footprints, out, |f| radial.sample(engine, t, f)),
             Self::Square(square) => {
                 if !fill_squares(engine, t, Listed(footprints), square, out) {
                     each(t, footprints, out, |f| square.sample(t, f));

@@ -124,6 +124,9 @@ impl RadialFilter {
     }
 }
 
+/// Weights that are found together.
+pub(crate) const TOGETHER: usize = 8;
+
 /// How a kernel meets the texels' own reconstruction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Footing {
@@ -165,6 +168,28 @@ impl Kernel {
             Self::Lanczos3 => lanczos::THREE.weight(r2),
             Self::Box => f32::from(u8::from(r2 <= 0.5)),
             Self::Own(filter) => filter.weight(r2),
+        }
+    }
+
+    /// Makes [weights](Kernel::weight) of squared distances: one question which kernel it is, and a loop
+    /// of which the compiler can make vectors.
+    #[inline(always)]
+    pub(crate) fn weigh(self, r2: &mut [f32; TOGETHER]) {
+        match self {
+            Self::Gaussian => Self::Gaussian.weigh_each(r2),
+            Self::Smooth => Self::Smooth.weigh_each(r2),
+            Self::Triangle => Self::Triangle.weigh_each(r2),
+            Self::Mitchell => Self::Mitchell.weigh_each(r2),
+            Self::Lanczos2 => Self::Lanczos2.weigh_each(r2),
+            Self::Lanczos3 => Self::Lanczos3.weigh_each(r2),
+            Self::Box | Self::Own(_) => self.weigh_each(r2),
+        }
+    }
+
+    #[inline(always)]
+    fn weigh_each(self, r2: &mut [f32; TOGETHER]) {
+        for r2 in r2 {
+            *r2 = self.weight(*r2);
         }
     }
 

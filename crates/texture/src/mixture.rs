@@ -1,6 +1,7 @@
 //! Weights of one kernel, or of two blended, and the sums that they make.
 
 use crate::gaussian::widening;
+use crate::kernel::TOGETHER;
 use crate::math::sqrt;
 use crate::{Kernel, Magnify, PixelFilter, Sampler};
 
@@ -49,6 +50,26 @@ impl Mixture {
     pub(crate) fn radius(&self) -> f64 {
         let other = self.magnified.map_or(0.0, |(kernel, _)| f64::from(kernel.radius()));
         sqrt(f64::from(self.cut)).max(other)
+    }
+
+    /// The weights at squared distances, in their place: [`Mixture::weight`].
+    #[inline(always)]
+    pub(crate) fn weigh(&self, r2: &mut [f32; TOGETHER]) {
+        let squares = *r2;
+        for r2 in r2.iter_mut() {
+            *r2 *= self.narrowing;
+        }
+        self.kernel.weigh(r2);
+        for (weight, square) in r2.iter_mut().zip(squares) {
+            *weight = if square <= self.cut { *weight } else { 0.0 };
+        }
+        if let Some((kernel, near)) = self.magnified {
+            let mut others = squares;
+            kernel.weigh(&mut others);
+            for (far, other) in r2.iter_mut().zip(others) {
+                *far = near * other + self.far * *far;
+            }
+        }
     }
 
     /// The weight at a squared distance.

@@ -10,14 +10,17 @@
 //!    squared distance from the centre in units of the ellipse.
 
 use crate::covariance::Covariance;
+use crate::engine::Engine;
 use crate::ewa::{BUDGET, Limits, auto_pick};
-use crate::kernel::Footing;
+use crate::kernel::{Footing, TOGETHER};
 use crate::level::Level;
 use crate::lod::{self, Pick};
 use crate::magnify::{Magnify, nearness};
 use crate::math::{ceil, floor, sqrt};
 use crate::mixture::{Mixture, Sums};
 use crate::point::lerp;
+use crate::store::{Store, of_code};
+use crate::texel::color;
 use crate::{Footprint, LevelMode, Sampler, Texture};
 use scumble_geometry::Matrix2;
 
@@ -59,9 +62,15 @@ impl Radial {
 
     /// The colour of one footprint, its centre brought near and its Jacobian bounded.
     #[inline(always)]
-    pub(crate) fn sample(&self, t: &Texture, f: &Footprint) -> [f32; 4] {
+    pub(crate) fn sample(&self, engine: impl Engine, t: &Texture, f: &Footprint) -> [f32; 4] {
         let weights = Mixture::new(&self.sampler, nearness(f.major_squared() as f32));
-        self.over_levels(t, f, |level, rows| Self::average(level, t, rows, &weights), lerp)
+        let average = |level: &Level, e: &Ellipse| {
+            engine.call(
+                #[inline(always)]
+                || Self::average(level, t, e, &weights),
+            )
+        };
+        self.over_levels(t, f, average, lerp)
     }
 
     /// Texels that [`Radial::sample`] reads.
@@ -133,8 +142,48 @@ impl Radial {
         let [u, v] = e.centre;
         let centre = level.texel(floor(u + 0.5) as i32, floor(v + 0.5) as i32, t.wrap);
         let mut sums = Sums::new(centre);
-        let add = |x: i32, y: i32, weight: f32| sums.add(weight, level.texel(x, y, t.wrap));
-        e.visit(|r2| weights.weight(r2), add);
+        for y in e.rows() {
+            let row = e.row(y);
+            let (Row { first, last, .. }, count) = (row, row.count());
+            // Once a row, so that nothing is asked of each texel.
+            let inside = count > 0 && level.holds([first, y], [last, y]);
+            let place = if inside { level.index(first, y) } else { 0 };
+            match &level.texels {
+                _ if !inside => row.add(
+                    #[inline(always)]
+                    |i| level.texel(first + i as i32, y, t.wrap),
+                    weights,
+                    &mut sums,
+                ),
+                Store::Steps(texels) => {
+                    let texels = &texels[place..][..count];
+                    row.add(
+                        #[inline(always)]
+                        |i| color(texels[i]),
+                        weights,
+                        &mut sums,
+                    );
+                }
+                Store::Codes(texels) => {
+                    let texels = &texels[place..][..count];
+                    row.add(
+                        #[inline(always)]
+                        |i| color(of_code(texels[i])),
+                        weights,
+                        &mut sums,
+                    );
+                }
+                Store::Floats(texels) => {
+                    let texels = &texels[place..][..count];
+                    row.add(
+                        #[inline(always)]
+                        |i| texels[i],
+                        weights,
+                        &mut sums,
+                    );
+                }
+            }
+        }
         sums.finish()
     }
 }
@@ -177,37 +226,64 @@ impl Ellipse {
         ceil(v - self.rise) as i32..=floor(v + self.rise) as i32
     }
 
-    /// The middle of a row, its first texel and its last.
+    /// What of row `y` is inside.
     #[inline(always)]
-    fn span(&self, dv: f64) -> (f64, i32, i32) {
+    fn row(&self, y: i32) -> Row {
+        let dv = f64::from(y) - self.centre[1];
         let middle = self.centre[0] + self.slope * dv;
         let part = dv / self.rise;
         let half = self.run * sqrt((1.0 - part * part).max(0.0));
-        (middle, ceil(middle - half) as i32, floor(middle + half) as i32)
-    }
-
-    /// Calls `add` with column, row and weight of every texel inside.
-    #[inline(always)]
-    fn visit(&self, weight: impl Fn(f32) -> f32, mut add: impl FnMut(i32, i32, f32)) {
-        for y in self.rows() {
-            let dv = f64::from(y) - self.centre[1];
-            let (middle, first, last) = self.span(dv);
-            let (base, scale) = ((self.row_scale * dv * dv) as f32, self.run_scale as f32);
-            for x in first..=last {
-                let dx = (f64::from(x) - middle) as f32;
-                let r2 = base + scale * (dx * dx);
-                add(x, y, weight(r2));
-            }
+        Row {
+            first: ceil(middle - half) as i32,
+            last: floor(middle + half) as i32,
+            middle,
+            base: (self.row_scale * dv * dv) as f32,
+            scale: self.run_scale as f32,
         }
     }
 
     /// Texels inside.
     fn texels(&self) -> usize {
-        let row = |y: i32| {
-            let (_, first, last) = self.span(f64::from(y) - self.centre[1]);
-            usize::try_from(last - first + 1).unwrap_or(0)
-        };
-        self.rows().map(row).sum()
+        self.rows().map(|y| self.row(y).count()).sum()
+    }
+}
+
+/// A row of an ellipse.
+#[derive(Debug, Clone, Copy)]
+struct Row {
+    /// Its first texel and its last.
+    first: i32,
+    last: i32,
+    /// Where its middle is.
+    middle: f64,
+    /// r² = `base` + `scale`·dx².
+    base: f32,
+    scale: f32,
+}
+
+impl Row {
+    /// How many texels it has.
+    #[inline(always)]
+    fn count(&self) -> usize {
+        usize::try_from(self.last - self.first + 1).unwrap_or(0)
+    }
+
+    /// Adds its texels, given the colour of each, counted from the first.
+    #[inline(always)]
+    fn add(&self, color: impl Fn(usize) -> [f32; 4], weights: &Mixture, sums: &mut Sums) {
+        let count = self.count();
+        for from in (0..count).step_by(TOGETHER) {
+            let x = f64::from(self.first + from as i32);
+            let mut these = [0.0; TOGETHER];
+            for (k, r2) in these.iter_mut().enumerate() {
+                let dx = (x + k as f64 - self.middle) as f32;
+                *r2 = self.base + self.scale * (dx * dx);
+            }
+            weights.weigh(&mut these);
+            for (k, weight) in these.iter().enumerate().take(count - from) {
+                sums.add(*weight, color(from + k));
+            }
+        }
     }
 }
 
@@ -215,6 +291,7 @@ impl Ellipse {
 mod tests {
     use super::*;
     use crate::TextureOptions;
+    use crate::engine::Scalar;
     use scumble_pixel::Image;
 
     #[test]
@@ -230,7 +307,7 @@ mod tests {
             let at = |k: f64| (f64::from(i) * k) % 1.0;
             let jacobian = Matrix2::new(9.0 * at(0.37), 4.0 * at(0.71), 5.0 * at(0.59), at(0.13));
             let f = Footprint { u: 64.0 * at(0.618), v: 48.0 * at(0.414), jacobian };
-            let (found, fast) = (radial.sample(&t, &f), t.sample(&f, &s).0);
+            let (found, fast) = (radial.sample(Scalar, &t, &f), t.sample(&f, &s).0);
             for (a, b) in found.iter().zip(fast) {
                 assert!((a.clamp(0.0, 1.0) - b).abs() < 2e-4, "{f:?}: {found:?} {fast:?}");
             }
