@@ -65,11 +65,12 @@ fn cast<T: Plain>(map: &memmap2::MmapMut) -> &[T] {
 
 /// So many, zeroed by the system.
 pub(crate) fn zeroed<T: Clone + Default>(len: usize) -> Result<Vec<T>, TextureError> {
-    // Asked for first, so that a refusal is an error; then had zeroed from the system.
+    // Asked for first, so that a refusal is an error; then had zeroed from the system. The compiler must
+    // not know that nothing is done with what was asked for, or it would not ask.
     let mut asked = Vec::<T>::new();
     let bytes = len.saturating_mul(size_of::<T>());
     asked.try_reserve_exact(len).map_err(|_| TextureError::OutOfMemory { bytes })?;
-    drop(asked);
+    drop(core::hint::black_box(asked));
     Ok(vec![T::default(); len])
 }
 
