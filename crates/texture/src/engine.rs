@@ -98,7 +98,7 @@ impl<S: Simd> Engine for Vector<S> {
         filter: impl Points,
         out: &mut [Premul],
     ) -> bool {
-        self.0.vectorize(
+        self.call(
             #[inline(always)]
             || crate::points::fill(self.0, t, run, mode, filter, out),
         );
@@ -107,7 +107,7 @@ impl<S: Simd> Engine for Vector<S> {
 
     #[inline(always)]
     fn ellipses(self, t: &Texture, run: impl Run, limits: &Limits, out: &mut [Premul]) -> bool {
-        self.0.vectorize(
+        self.call(
             #[inline(always)]
             || crate::batch::fill(self.0, t, run, limits, out),
         );
@@ -116,7 +116,7 @@ impl<S: Simd> Engine for Vector<S> {
 
     #[inline(always)]
     fn squares(self, t: &Texture, run: impl Run, square: &Square, out: &mut [Premul]) -> bool {
-        self.0.vectorize(
+        self.call(
             #[inline(always)]
             || crate::square::lanes::fill(self.0, t, run, square, out),
         );

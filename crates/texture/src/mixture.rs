@@ -121,3 +121,28 @@ impl Sums {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn weights_found_together_are_those_found_alone(
+            kernel in prop::sample::select(&Kernel::ALL),
+            magnified in prop::option::of(prop::sample::select(&Kernel::ALL)),
+            nearness in 0.0..=1.0f32,
+            radius in 2.0..4.0f32,
+            squares in prop::array::uniform8(0.0..12.0f32),
+        ) {
+            let magnify = magnified.map_or(Magnify::None, Magnify::Radial);
+            let sampler = Sampler { kernel, magnify, radius, ..Sampler::DEFAULT };
+            let mixture = Mixture::new(&sampler, nearness);
+            let mut found = squares;
+            mixture.weigh(&mut found);
+            let expected = squares.map(|r2| mixture.weight(r2));
+            prop_assert_eq!(found.map(f32::to_bits), expected.map(f32::to_bits));
+        }
+    }
+}

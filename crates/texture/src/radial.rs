@@ -22,6 +22,7 @@ use crate::point::lerp;
 use crate::store::{Store, of_code};
 use crate::texel::color;
 use crate::{Footprint, LevelMode, Sampler, Texture};
+use core::convert::identity;
 use scumble_geometry::Matrix2;
 
 /// Variance of bilinear reconstruction, in squared texels.
@@ -144,44 +145,28 @@ impl Radial {
         let mut sums = Sums::new(centre);
         for y in e.rows() {
             let row = e.row(y);
-            let (Row { first, last, .. }, count) = (row, row.count());
-            // Once a row, so that nothing is asked of each texel.
-            let inside = count > 0 && level.holds([first, y], [last, y]);
-            let place = if inside { level.index(first, y) } else { 0 };
-            match &level.texels {
-                _ if !inside => row.add(
+            let Row { first, last, .. } = row;
+            if first > last || !level.holds([first, y], [last, y]) {
+                row.add(
                     #[inline(always)]
                     |i| level.texel(first + i as i32, y, t.wrap),
                     weights,
                     &mut sums,
+                );
+                continue;
+            }
+            // Asked once a row how texels are kept, and not for each.
+            let place = level.index(first, y);
+            match &level.texels {
+                Store::Steps(kept) => row.add_kept(&kept[place..], color, weights, &mut sums),
+                Store::Floats(kept) => row.add_kept(&kept[place..], identity, weights, &mut sums),
+                Store::Codes(kept) => row.add_kept(
+                    &kept[place..],
+                    #[inline(always)]
+                    |code| color(of_code(code)),
+                    weights,
+                    &mut sums,
                 ),
-                Store::Steps(texels) => {
-                    let texels = &texels[place..][..count];
-                    row.add(
-                        #[inline(always)]
-                        |i| color(texels[i]),
-                        weights,
-                        &mut sums,
-                    );
-                }
-                Store::Codes(texels) => {
-                    let texels = &texels[place..][..count];
-                    row.add(
-                        #[inline(always)]
-                        |i| color(of_code(texels[i])),
-                        weights,
-                        &mut sums,
-                    );
-                }
-                Store::Floats(texels) => {
-                    let texels = &texels[place..][..count];
-                    row.add(
-                        #[inline(always)]
-                        |i| texels[i],
-                        weights,
-                        &mut sums,
-                    );
-                }
             }
         }
         sums.finish()
@@ -266,6 +251,24 @@ impl Row {
     #[inline(always)]
     fn count(&self) -> usize {
         usize::try_from(self.last - self.first + 1).unwrap_or(0)
+    }
+
+    /// Adds its texels, which are kept side by side.
+    #[inline(always)]
+    fn add_kept<T: Copy>(
+        &self,
+        texels: &[T],
+        color: impl Fn(T) -> [f32; 4],
+        weights: &Mixture,
+        sums: &mut Sums,
+    ) {
+        let texels = &texels[..self.count()];
+        self.add(
+            #[inline(always)]
+            |i| color(texels[i]),
+            weights,
+            sums,
+        );
     }
 
     /// Adds its texels, given the colour of each, counted from the first.
