@@ -18,7 +18,7 @@ use scumble_pixel::Premul;
 const FOUR: usize = 4;
 
 /// Sixteen colours.
-type Colors = [[f32; 4 * FOUR]; ABREAST / FOUR];
+type Colors<S> = [f32x16<S>; ABREAST / FOUR];
 
 /// Takes the last of the four numbers of 32 bits in a block of sixteen bytes four times.
 const ALPHA: [u8; 64] = {
@@ -179,6 +179,7 @@ pub(crate) fn fill<S: Simd>(
     filter: impl Points,
     out: &mut [Premul],
 ) {
+    let mut held = Held::at(t, 0);
     for (chunk, out) in out.chunks_mut(ABREAST).enumerate() {
         let spots = run.sixteen(simd, t, chunk * ABREAST);
         let asked = (1u64 << out.len()) - 1;
@@ -186,25 +187,86 @@ pub(crate) fn fill<S: Simd>(
         let step = lod::longest_step_squared(spots.jacobian);
         let [level, coarser] = lod::levels(step, mode, t.range().map(|level| level as f32));
         let batch = Batch { simd, t, filter, spots: &spots };
-        let mut colors = Colors::default();
+        let mut colors = [f32x16::splat(simd, 0.0); ABREAST / FOUR];
         let (levels, mut rest) = (level.to_int::<i32x16<S>>(), finite);
         while rest != 0 {
-            let index = levels.to_array()[rest.trailing_zeros() as usize % ABREAST];
-            let same = levels.simd_eq(index).to_bitmask() & rest;
-            batch.fill(index as usize, coarser, same, rest == finite, &mut colors);
+            let mut same = levels.simd_eq(held.index).to_bitmask() & rest;
+            if same == 0 {
+                held = Held::at(t, levels.to_array()[rest.trailing_zeros() as usize % ABREAST]);
+                same = levels.simd_eq(held.index).to_bitmask() & rest;
+            }
+            let own = batch.fill(&held, coarser, same);
+            colors = if rest == finite { own } else { chosen(simd, same, own, colors) };
             rest &= !same;
         }
         if let Some(all) = out.first_chunk_mut() {
-            finish(simd, t, &colors, all);
+            finish(simd, t, colors, all);
         } else {
             let mut all = [Premul::TRANSPARENT; ABREAST];
-            finish(simd, t, &colors, &mut all);
+            finish(simd, t, colors, &mut all);
             out.copy_from_slice(&all[..out.len()]);
         }
         for i in lanes(asked & !finite) {
             out[i] = t.average();
         }
     }
+}
+
+/// The levels that were read last, which the next places most likely read too: known before these are,
+/// they need not be waited for.
+struct Held<'a> {
+    index: i32,
+    fine: Option<Grid<'a>>,
+    /// The next.
+    coarse: Option<Grid<'a>>,
+}
+
+impl<'a> Held<'a> {
+    #[inline(always)]
+    fn at(t: &'a Texture, index: i32) -> Self {
+        let grid = |index: usize| t.levels.get(index).map(Grid::new);
+        Self { index, fine: grid(index as usize), coarse: grid(index as usize + 1) }
+    }
+}
+
+/// A level, and its texels at hand.
+#[derive(Clone, Copy)]
+struct Grid<'a> {
+    level: &'a Level,
+    texels: Texels<'a>,
+}
+
+/// The slices of a [`Store`].
+#[derive(Clone, Copy)]
+enum Texels<'a> {
+    Steps(&'a [Texel]),
+    Codes(&'a [Code]),
+    Floats(&'a [[f32; 4]]),
+}
+
+impl<'a> Grid<'a> {
+    #[inline(always)]
+    fn new(level: &'a Level) -> Self {
+        let texels = match &level.texels {
+            Store::Steps(texels) => Texels::Steps(texels),
+            Store::Codes(texels) => Texels::Codes(texels),
+            Store::Floats(texels) => Texels::Floats(texels),
+        };
+        Self { level, texels }
+    }
+}
+
+/// Of two colours in each lane the first where its bit is set.
+#[inline(always)]
+fn chosen<S: Simd>(simd: S, bits: u64, yes: Colors<S>, no: Colors<S>) -> Colors<S> {
+    let flags = mask32x16::from_bitmask(simd, bits)
+        .select(f32x16::splat(simd, 1.0), f32x16::splat(simd, 0.0))
+        .to_array();
+    let mut colors = no;
+    for ((color, yes), flags) in colors.iter_mut().zip(yes).zip(flags.as_chunks().0) {
+        *color = expand(simd, *flags).simd_gt(0.0).select(yes, *color);
+    }
+    colors
 }
 
 /// Sixteen places on their way.
@@ -217,37 +279,29 @@ struct Batch<'a, S: Simd, P> {
 
 impl<S: Simd, P: Points> Batch<'_, S, P> {
     /// The colours of the lanes whose bits are set, which read this level and, where `coarser` is above 0,
-    /// so much of the next; those of the `first` lanes may go to any others too.
+    /// so much of the next; of other lanes anything.
     #[inline(always)]
-    fn fill(&self, index: usize, coarser: f32x16<S>, wanted: u64, first: bool, out: &mut Colors) {
-        let Some(level) = self.t.levels.get(index) else { return };
-        let mut own = self.in_level(level, wanted);
+    fn fill(&self, held: &Held<'_>, coarser: f32x16<S>, wanted: u64) -> Colors<S> {
+        let Some(grid) = held.fine else { return [f32x16::splat(self.simd, 0.0); ABREAST / FOUR] };
+        let mut own = self.in_level(grid, wanted);
         let blends = coarser.simd_gt(0.0).to_bitmask() & wanted;
         if blends != 0
-            && let Some(level) = self.t.levels.get(index + 1)
+            && let Some(grid) = held.coarse
         {
-            let next = self.in_level(level, blends);
+            let next = self.in_level(grid, blends);
             let coarser = coarser.to_array();
             for ((own, next), coarser) in own.iter_mut().zip(next).zip(coarser.as_chunks().0) {
                 let coarser = expand(self.simd, *coarser);
-                let one = f32x16::load_array(self.simd, *own);
-                let both = one + (f32x16::load_array(self.simd, next) - one) * coarser;
-                *own = coarser.simd_gt(0.0).select(both, one).to_array();
+                let both = *own + (next - *own) * coarser;
+                *own = coarser.simd_gt(0.0).select(both, *own);
             }
         }
-        if first {
-            *out = own;
-            return;
-        }
-        let (own, out) = (own.as_flattened().as_chunks::<4>().0, out.as_flattened_mut());
-        for i in lanes(wanted) {
-            out.as_chunks_mut().0[i] = own[i];
-        }
+        own
     }
 
     /// The colours in one level, in its unit.
     #[inline(always)]
-    fn in_level(&self, level: &Level, wanted: u64) -> Colors {
+    fn in_level(&self, Grid { level, texels }: Grid<'_>, wanted: u64) -> Colors<S> {
         let simd = self.simd;
         let [su, sv] = level.frame.scale;
         let (x0, fx) = place(self.spots.u, su, P::SHIFT);
@@ -257,15 +311,25 @@ impl<S: Simd, P: Points> Batch<'_, S, P> {
         let at = level.places(simd, [P::SIDE; 2]).index([x0, y0]);
         let at = here.select(at, i32x16::splat(simd, 0)).to_array();
         let rest = [fx.to_array(), fy.to_array()];
-        let mut colors = match &level.texels {
-            Store::Steps(texels) => self.read(texels, level.stride, &at, &rest),
-            Store::Codes(texels) => self.read(texels, level.stride, &at, &rest),
-            Store::Floats(texels) => self.read(texels, level.stride, &at, &rest),
+        let mut colors = match texels {
+            Texels::Steps(texels) => self.read(texels, level.stride, &at, &rest),
+            Texels::Codes(texels) => self.read(texels, level.stride, &at, &rest),
+            Texels::Floats(texels) => self.read(texels, level.stride, &at, &rest),
         };
-        for i in lanes(wanted & !here.to_bitmask()) {
-            let (at, rest) = ([x0.to_array()[i], y0.to_array()[i]], [rest[0][i], rest[1][i]]);
-            let color = self.filter.color(level, self.t.wrap, at, rest);
-            colors[i / FOUR][i % FOUR * 4..][..4].copy_from_slice(&color);
+        let beyond = wanted & !here.to_bitmask();
+        if beyond != 0 {
+            // In memory of its own, so that the others need none.
+            let mut all = [[[0.0; 4]; FOUR]; ABREAST / FOUR];
+            for (all, colors) in all.iter_mut().zip(colors) {
+                colors.store_slice(all.as_flattened_mut());
+            }
+            for i in lanes(beyond) {
+                let (at, rest) = ([x0.to_array()[i], y0.to_array()[i]], [rest[0][i], rest[1][i]]);
+                all[i / FOUR][i % FOUR] = self.filter.color(level, self.t.wrap, at, rest);
+            }
+            for (colors, all) in colors.iter_mut().zip(&all) {
+                *colors = f32x16::from_slice(simd, all.as_flattened());
+            }
         }
         colors
     }
@@ -277,11 +341,11 @@ impl<S: Simd, P: Points> Batch<'_, S, P> {
         stride: usize,
         at: &[i32; ABREAST],
         [x, y]: &[[f32; ABREAST]; 2],
-    ) -> Colors {
-        let mut colors = Colors::default();
+    ) -> Colors<S> {
+        let mut colors = [f32x16::splat(self.simd, 0.0); ABREAST / FOUR];
         let rest = x.as_chunks().0.iter().zip(y.as_chunks().0);
         for ((color, at), (x, y)) in colors.iter_mut().zip(at.as_chunks().0).zip(rest) {
-            *color = P::four(self.simd, texels, stride, at, [x, y]).to_array();
+            *color = P::four(self.simd, texels, stride, at, [x, y]);
         }
         colors
     }
@@ -289,20 +353,21 @@ impl<S: Simd, P: Points> Batch<'_, S, P> {
 
 /// [`Texture::within_range`] of colours in the levels' unit.
 #[inline(always)]
-fn finish<S: Simd>(simd: S, t: &Texture, colors: &Colors, out: &mut [Premul; ABREAST]) {
+fn finish<S: Simd>(simd: S, t: &Texture, colors: Colors<S>, out: &mut [Premul; ABREAST]) {
     let unit = t.levels[0].unit();
     let (zero, one) = (f32x16::splat(simd, 0.0), f32x16::splat(simd, 1.0));
     let out = out.as_chunks_mut::<FOUR>().0;
     if !t.bounded {
         for (out, four) in out.iter_mut().zip(colors) {
+            let four = (four * unit).to_array();
             for (out, color) in out.iter_mut().zip(four.as_chunks().0) {
-                *out = t.within_range(color.map(|v| v * unit));
+                *out = t.within_range(*color);
             }
         }
         return;
     }
     for (out, four) in out.iter_mut().zip(colors) {
-        let colors = (f32x16::load_array_ref(simd, four) * unit).max(zero);
+        let colors = (four * unit).max(zero);
         let alpha = colors.min(one).swizzle_dyn_within_blocks(u8x64::load_array(simd, ALPHA));
         for (out, color) in out.iter_mut().zip(colors.min(alpha).to_array().as_chunks().0) {
             *out = Premul(*color);
